@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Momentum exchange between particles and fluid in one bulk cell and one window.
+//
+//   force on the fluid of the cell  F(u) = -J/dt * [scheme] + C (u_ref - u)
+//
+//   scheme                  explicit part     C            u_ref
+//   explicit                -J/dt             0            -
+//   semi_implicit           0                 K V          u_s = sum(w beta v)/sum(w beta)
+//   conservative_implicit   -J/dt             K_eff V      mean fluid velocity the particles felt
+//
+// J     drag impulse the particles of the cell received in the window, N s
+// K V   sum of w beta, kg/s;  K_eff V its response form (bulk_cells.hpp), kg/s
+// dt    window, s
+//
+// With conservative_implicit what the implicit part gave the fluid is owed to the particles:
+// M = C (u - u_ref) dt, handed over in the next window.
+// Sources: Pozzetti & Peters 2017 (semi-implicit, after Xiao & Sun 2011); the conservative scheme
+// is this project's own, docs/theory.md.
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+
+namespace demvof {
+
+/// Force of the particles on the fluid of one bulk cell: explicit_force + coefficient (reference - u).
+struct FluidSource {
+  Vec3 explicit_force;      // N
+  double coefficient = 0;   // kg/s
+  Vec3 reference_velocity;  // m/s
+};
+
+/// particles: of the window just simulated by the DEM; window: s, > 0.
+inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& particles, double window) {
+  FluidSource source;
+  switch (scheme) {
+    case ExchangeScheme::explicit_drag:
+      source.explicit_force = -particles.drag_impulse / window;
+      break;
+    case ExchangeScheme::semi_implicit:
+      source.coefficient = particles.drag_factor;
+      if (particles.drag_factor > 0)
+        source.reference_velocity = particles.drag_weighted_velocity / particles.drag_factor;
+      break;
+    case ExchangeScheme::conservative_implicit:
+      source.explicit_force = -particles.drag_impulse / window;
+      source.coefficient = particles.drag_response;
+      if (particles.drag_response > 0)
+        source.reference_velocity = particles.response_weighted_velocity / particles.drag_response;
+      break;
+  }
+  return source;
+}
+
+/// True when the impulse of the implicit part goes back to the particles in the next window.
+inline bool hands_back_left_over(ExchangeScheme scheme) {
+  return scheme == ExchangeScheme::conservative_implicit;
+}
+
+}  // namespace demvof

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+
+namespace demvof {
+
+/// What the programs found in a scene before the first step.
+struct SceneFacts {
+  double surface_tension = 0;       // largest coefficient in the fluid case, N/m
+  bool two_fluids = true;           // both fluids present at the start or at an inlet
+  bool turbulent = false;           // a turbulence model other than laminar
+  bool particles = false;           // a particle script is given
+  long particle_count = 0;          // at the start
+  bool inserts_particles = false;   // the script adds particles during the run
+  double largest_solid_fraction = 0;  // on the bulk grid at the start, -
+};
+
+struct Decision {
+  std::string decision;  // e.g. "surface tension"
+  bool on = false;
+  std::string reason;    // one sentence that names the fact or the forcing key
+};
+
+/// What a run has switched on, and why.
+struct Scene {
+  bool particles = false;
+  bool surface_tension = false;
+  bool interface_advection = true;
+  bool porosity = false;
+  bool turbulence = false;
+  std::vector<Decision> decisions;
+};
+
+/// Pure: the plan from the facts and what the case file forces.
+Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts);
+
+}  // namespace demvof
