@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/bulk_grid.hpp"
+#include "coupler/grid/vec3.hpp"
+
+// Time series that ParaView opens: <folder>/<name>/<name>_<number>.vtp or .vti, and
+// <folder>/<name>.pvd, which lists them with their times and is replaced in one step at each
+// output, so that it is valid at any moment of a run.
+
+namespace demvof {
+
+/// The .pvd file of a series.
+class PvdIndex {
+ public:
+  explicit PvdIndex(std::filesystem::path path) : path_(std::move(path)) {}
+  /// file: relative to the index. Throws std::runtime_error when the index cannot be written.
+  void add(double time, const std::string& file);
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::pair<double, std::string>> entries_;
+};
+
+/// The particles of one rank. Further members may be empty on no rank or on all of them.
+struct ParticleFrame {
+  std::vector<std::int64_t> id;
+  std::vector<Vec3> position;        // m
+  std::vector<Vec3> velocity;        // m/s
+  std::vector<double> radius;        // m
+  std::vector<Vec3> drag_force;      // N
+  std::vector<Vec3> pressure_force;  // N
+  std::vector<Vec3> contact_force;   // N
+};
+
+/// particles/: one .vtp piece per rank, with a .pvtp over the pieces when there are several.
+class ParticleSeries {
+ public:
+  /// Collective over world. Removes what an earlier run left in the series' folder.
+  ParticleSeries(MPI_Comm world, const std::filesystem::path& folder, const std::string& name = "particles");
+  /// Collective. Throws std::invalid_argument when members differ in length, std::runtime_error when
+  /// a file cannot be written.
+  void write(double time, const ParticleFrame& frame);
+
+ private:
+  MPI_Comm world_;
+  std::filesystem::path folder_;
+  std::string name_;
+  int count_ = 0;
+  PvdIndex index_;
+};
+
+/// What is shown of one bulk cell.
+struct BulkFrame {
+  double void_fraction = 1;  // -
+  Vec3 fluid_velocity;       // m/s
+  Vec3 pressure_gradient;    // Pa/m
+  Vec3 drag;                 // force of the particles on the fluid per volume, N/m3
+};
+
+/// bulk/: the bulk grid as .vti with cell data; cells that the run does not average are marked by
+/// active = 0 and carry the defaults of BulkFrame.
+class BulkSeries {
+ public:
+  /// Collective over world. Removes what an earlier run left in the series' folder.
+  BulkSeries(MPI_Comm world, BulkGrid grid, const std::filesystem::path& folder,
+             const std::string& name = "bulk");
+  /// Collective; active: the averaged cells that this rank owns. Rank 0 gathers and writes.
+  /// Throws std::runtime_error on all ranks when the file cannot be written.
+  void write(double time, const CellValues<BulkFrame>& active);
+
+ private:
+  MPI_Comm world_;
+  BulkGrid grid_;
+  std::filesystem::path folder_;
+  std::string name_;
+  int count_ = 0;
+  PvdIndex index_;
+};
+
+}  // namespace demvof
