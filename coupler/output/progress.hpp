@@ -34,7 +34,7 @@ class ProgressFile {
   std::filesystem::path path_;
   Clock::duration interval_;
   std::optional<Clock::time_point> last_write_;
-  Clock::time_point last_call_;
+  std::optional<Clock::time_point> last_call_;
   double last_time_ = 0;                     // simulated, s
   double simulated_sum_ = 0, wall_sum_ = 0;  // fading sums, s
 };

@@ -31,7 +31,7 @@ class PvdIndex {
   std::vector<std::pair<double, std::string>> entries_;
 };
 
-/// The particles of one rank. Further members may be empty on no rank or on all of them.
+/// The particles of one rank; every member has one value per particle.
 struct ParticleFrame {
   std::vector<std::int64_t> id;
   std::vector<Vec3> position;        // m
@@ -47,8 +47,8 @@ class ParticleSeries {
  public:
   /// Collective over world. Removes what an earlier run left in the series' folder.
   ParticleSeries(MPI_Comm world, const std::filesystem::path& folder, const std::string& name = "particles");
-  /// Collective. Throws std::invalid_argument when members differ in length, std::runtime_error when
-  /// a file cannot be written.
+  /// Collective. Throws std::runtime_error on all ranks when members differ in length or a file
+  /// cannot be written on any.
   void write(double time, const ParticleFrame& frame);
 
  private:

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/output/results.hpp"
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "coupler/output/machine.hpp"
+#include "coupler/output/write_file.hpp"
+
+namespace demvof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::failed:
+      return "failed";
+    case RunStatus::interrupted:
+      return "interrupted";
+  }
+  throw std::invalid_argument("no such run status");
+}
+
+Json configuration(const std::string& text) {
+  if (text.empty()) return Json::object();
+  Json parsed = Json::parse(text, nullptr, false);
+  if (parsed.is_discarded()) throw std::invalid_argument("the resolved configuration is no JSON text");
+  return parsed;
+}
+
+Json scene(const std::vector<Decision>& decisions) {
+  Json list = Json::array();
+  for (const Decision& decision : decisions)
+    list.push_back({{"decision", decision.decision}, {"on", decision.on}, {"reason", decision.reason}});
+  return list;
+}
+
+}  // namespace
+
+std::string results_json(const RunResults& r) {
+  Json json;
+  json["status"] = name(r.status);
+  if (r.failure)
+    json["failure"] = {{"side", r.failure->side},
+                       {"stage", r.failure->stage},
+                       {"time", r.failure->time},
+                       {"message", r.failure->message}};
+  json["version"] = version();
+  json["configuration_hash"] = r.configuration_hash;
+  json["configuration"] = configuration(r.configuration);
+  json["command"] = r.command;
+  const MachineFacts machine = machine_facts();
+  json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}};
+  json["ranks"] = {{"fluid", r.ranks.fluid}, {"particles", r.ranks.particles}};
+  json["wall_seconds"] = {{"total", r.wall_seconds.total},
+                          {"fluid", r.wall_seconds.fluid},
+                          {"particles", r.wall_seconds.particles},
+                          {"exchange", r.wall_seconds.exchange},
+                          {"waiting", r.wall_seconds.waiting}};
+  json["peak_memory_bytes"] = {{"fluid", r.peak_memory_bytes.fluid},
+                               {"particles", r.peak_memory_bytes.particles}};
+  json["steps"] = {{"windows", r.steps.windows}, {"fluid", r.steps.fluid}, {"particles", r.steps.particles}};
+  json["cells"] = {{"fine_min", r.cells.fine_min},
+                   {"fine_max", r.cells.fine_max},
+                   {"bulk", r.cells.bulk},
+                   {"bulk_active_max", r.cells.bulk_active_max}};
+  json["particles"] = {{"initial", r.particles.initial},
+                       {"inserted", r.particles.inserted},
+                       {"left", r.particles.left},
+                       {"lost", r.particles.lost},
+                       {"final", r.particles.final}};
+  json["exchanged"] = {{"bytes", r.exchanged.bytes}, {"cells", r.exchanged.cells}};
+  json["conservation"] = {{"exchange", r.conservation.exchange},
+                          {"momentum", r.conservation.momentum},
+                          {"solid_volume", r.conservation.solid_volume},
+                          {"liquid_volume", r.conservation.liquid_volume}};
+  json["scene"] = scene(r.scene);
+  json["quantities"] = Json::object();
+  for (const auto& [quantity, value] : r.quantities) json["quantities"][quantity] = value;
+  json["warnings"] = r.warnings;
+  // Log text from a solver may hold any byte; a results file that cannot be written helps nobody.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_results(const std::filesystem::path& path, const RunResults& results) {
+  write_file_atomically(path, results_json(results));
+}
+
+}  // namespace demvof

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "coupler/grid/vec3.hpp"
+#include "coupler/output/write_file.hpp"
+
+// What the series of vtk_series.hpp share; only their .cpp files include this.
+
+namespace demvof::vtk_file {
+
+inline int rank_of(MPI_Comm world) {
+  int rank;
+  MPI_Comm_rank(world, &rank);
+  return rank;
+}
+
+inline int size_of(MPI_Comm world) {
+  int size;
+  MPI_Comm_size(world, &size);
+  return size;
+}
+
+/// Runs the action on this rank; throws std::runtime_error on all ranks when it threw on any.
+template <class Action>
+void on_all_ranks(MPI_Comm world, const std::filesystem::path& what, Action action) {
+  std::string error;
+  try {
+    action();
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  const int failed = error.empty() ? 0 : 1;
+  int any = 0;
+  MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any) throw std::runtime_error(error.empty() ? what.string() + ": failed on another rank" : error);
+}
+
+/// Makes the folder of a series on rank 0, free of an earlier run's files. Collective.
+void prepare_folder(MPI_Comm world, const std::filesystem::path& folder, const std::string& series);
+
+vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<double>& values);
+vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>& values);
+
+/// Writes data with one of VTK's XML writers, complete or not at all.
+template <class Writer, class Data>
+void write(const std::filesystem::path& path, Data* data) {
+  std::filesystem::path part = path;
+  part += ".part";
+  vtkNew<Writer> writer;
+  writer->SetFileName(part.c_str());
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  if (writer->Write() != 1) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw std::runtime_error("cannot write " + path.string());
+  }
+  publish_file(part, path);
+}
+
+}  // namespace demvof::vtk_file
