@@ -14,14 +14,15 @@
 namespace demvof {
 
 struct FluidParameters {
-  std::string case_folder;            // an ordinary OpenFOAM interFoam case, relative to the case file
-  int ranks = 1;                      // MPI ranks of foam_side
-  std::vector<std::string> prepare = {"blockMesh", "setFields"};  // OpenFOAM commands that make mesh and fields
+  std::string case_folder;  // an ordinary OpenFOAM interFoam case, relative to the case file
+  int ranks = 1;            // MPI ranks of foam_side
+  std::vector<std::string> prepare = {"blockMesh",
+                                      "setFields"};  // OpenFOAM commands that make mesh and fields
 };
 
 struct ParticleParameters {
-  std::string script;                 // an ordinary LIGGGHTS input script, relative to the case file
-  int ranks = 1;                      // MPI ranks of dem_side
+  std::string script;  // an ordinary LIGGGHTS input script, relative to the case file
+  int ranks = 1;       // MPI ranks of dem_side
 };
 
 struct BulkGridParameters {
@@ -38,8 +39,9 @@ enum class PhaseInterchange { porous, none };
 
 struct AveragingParameters {
   Kernel kernel = Kernel::gaussian;
-  double width = 0;                   // standard deviation of the Gaussian, m; 0: half a bulk cell
-  double maximum_solid_fraction = 0.74;  // of a bulk cell; what is above moves to the neighbours and is counted
+  double width = 0;  // standard deviation of the Gaussian, m; 0: half a bulk cell
+  double maximum_solid_fraction =
+      0.74;  // of a bulk cell; what is above moves to the neighbours and is counted
 };
 
 struct MappingParameters {
@@ -48,15 +50,15 @@ struct MappingParameters {
 };
 
 struct CouplingParameters {
-  double end_time = 0;                // s
-  double window = 0;                  // s; a multiple of the DEM time step
+  double end_time = 0;  // s
+  double window = 0;    // s; a multiple of the DEM time step
   Schedule schedule = Schedule::staggered;
   ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
-  Sharing sharing = Sharing::mass;    // how a bulk cell's source is shared among its fine cells
+  Sharing sharing = Sharing::mass;  // how a bulk cell's source is shared among its fine cells
   AveragingParameters averaging;
   MappingParameters mapping;
   PhaseInterchange phase_interchange = PhaseInterchange::porous;
-  double time_out = 600;              // s without a word from the partner before a side gives up
+  double time_out = 600;  // s without a word from the partner before a side gives up
 };
 
 enum class DragLaw { none, schiller_naumann };
@@ -69,21 +71,23 @@ struct ForceParameters {
 /// For each decision of the scene plan: found from the scene (automatic), or forced.
 enum class Switch { automatic, on, off };
 struct SceneParameters {
+  Switch particles = Switch::automatic;  // off: the run is made without them (plain VOF)
   Switch surface_tension = Switch::automatic;
   Switch interface_advection = Switch::automatic;  // transport of alpha
   Switch porosity = Switch::automatic;             // eps in the fluid equations
-  double dilute_limit = 0;            // with porosity automatic: left out when the largest solid fraction stays below, -
+  double dilute_limit =
+      0;  // with porosity automatic: left out when the largest solid fraction stays below, -
 };
 
 struct OutputParameters {
-  double interval = 0;                // s between field outputs; 0: only at the end
-  double history_interval = 0;        // s between rows of history.csv; 0: every window
-  std::vector<std::string> history;   // recorded quantities; empty: all that the scene has
-  std::vector<double> pictures;       // times shown in report.html, s; empty: begin, four between, end
+  double interval = 0;               // s between field outputs; 0: only at the end
+  double history_interval = 0;       // s between rows of history.csv; 0: every window
+  std::vector<std::string> history;  // recorded quantities; empty: all that the scene has
+  std::vector<double> pictures;      // times shown in report.html, s; empty: begin, four between, end
 };
 
 struct CaseParameters {
-  std::string file;                   // path of the case file, as given
+  std::string file;  // path of the case file, as given
   FluidParameters fluid;
   std::optional<ParticleParameters> particles;  // absent: plain VOF, no partner
   std::optional<BulkGridParameters> bulk_grid;  // needed with particles

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/config/keys.hpp"
+
+#include <algorithm>
+
+#include "coupler/config/enum_names.hpp"
+
+namespace demvof {
+namespace {
+
+// Parameter <-> JSON value, by type.
+
+template <class T>
+Json to_json_value(const T& value) {
+  if constexpr (std::is_enum_v<T>)
+    return name_of(value);
+  else
+    return value;
+}
+Json to_json_value(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+template <class T>
+void from_json_value(const Json& json, T& value) {
+  if constexpr (std::is_enum_v<T>) {
+    for (const auto& [choice, name] : enum_names<T>)
+      if (name == json.get<std::string>()) value = choice;
+  } else {
+    value = json.get<T>();
+  }
+}
+void from_json_value(const Json& json, Vec3& v) {
+  v = {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+// Rules.
+
+using Form = ValueRule::Form;
+
+ValueRule text() {
+  return {};
+}
+ValueRule number(const std::string& unit) {
+  ValueRule rule;
+  rule.form = Form::number;
+  rule.unit = unit;
+  return rule;
+}
+ValueRule integer(double lowest, double highest) {
+  ValueRule rule;
+  rule.form = Form::integer;
+  rule.lowest = lowest;
+  rule.highest = highest;
+  return rule;
+}
+ValueRule flag() {
+  ValueRule rule;
+  rule.form = Form::flag;
+  return rule;
+}
+template <class E>
+ValueRule one_of() {
+  ValueRule rule;
+  rule.form = Form::choice;
+  for (const auto& item : enum_names<E>) rule.choices.push_back(item.second);
+  return rule;
+}
+ValueRule above(double bound, ValueRule rule) {
+  rule.lowest = bound;
+  rule.lowest_excluded = true;
+  return rule;
+}
+ValueRule at_least(double bound, ValueRule rule) {
+  rule.lowest = bound;
+  return rule;
+}
+ValueRule at_most(double bound, ValueRule rule) {
+  rule.highest = bound;
+  return rule;
+}
+ValueRule list_of(int length, ValueRule rule) {
+  rule.list_length = length;
+  return rule;
+}
+
+/// at: the parameter, as an access that works on const and mutable CaseParameters.
+template <class Access>
+Key key(const std::string& path, const ValueRule& rule, const std::string& doc, Access at) {
+  Key key;
+  key.path = path;
+  key.rule = rule;
+  key.doc = doc;
+  key.get = [at](const CaseParameters& c) { return to_json_value(at(c)); };
+  key.set = [at](CaseParameters& c, const Json& value) { from_json_value(value, at(c)); };
+  return key;
+}
+Key required(Key key) {
+  key.required = true;
+  return key;
+}
+Key changes_no_result(Key key) {
+  key.changes_results = false;
+  return key;
+}
+
+template <class Access>
+Section optional_section(const std::string& path, const std::string& doc, Access at) {
+  return {path,
+          doc,
+          Section::Presence::optional,
+          false,
+          [at](const CaseParameters& c) { return at(c).has_value(); },
+          [at](CaseParameters& c) { at(c).emplace(); }};
+}
+
+#define DEMVOF_AT(member) \
+  [](auto& c) -> auto& {  \
+    return c.member;      \
+  }
+
+std::vector<Section> make_sections() {
+  using Presence = Section::Presence;
+  Section forces{"forces",
+                 "Forces between fluid and particles: a list; what a given list does not name is off."};
+  forces.is_list = true;
+  return {
+      {"fluid", "The OpenFOAM side: an ordinary interFoam case.", Presence::required},
+      optional_section("particles", "The LIGGGHTS side; without this section the run is plain VOF.",
+                       DEMVOF_AT(particles)),
+      optional_section(
+          "bulk_grid",
+          "The coarse Cartesian grid on which particles and fluid meet, 2-4 particle diameters per "
+          "cell; needed with particles.",
+          DEMVOF_AT(bulk_grid)),
+      {"coupling", "When and how the two sides exchange.", Presence::required},
+      {"coupling.averaging", "How particles are averaged onto the bulk grid."},
+      {"coupling.mapping", "How values go between the bulk grid and the fine mesh."},
+      forces,
+      {"scene", "What the run solves: found from the scene (auto) or forced (on, off)."},
+      {"output", "What is written, and when."},
+  };
+}
+
+std::vector<Key> make_keys() {
+  constexpr double many_ranks = 100000, many_cells = 1000000;
+  constexpr int any = ValueRule::any_length;
+  return {
+      required(key("fluid.case", text(), "Folder of the OpenFOAM case, counted from the case file's folder.",
+                   DEMVOF_AT(fluid.case_folder))),
+      changes_no_result(
+          key("fluid.ranks", integer(1, many_ranks), "MPI ranks of foam_side.", DEMVOF_AT(fluid.ranks))),
+      key("fluid.prepare", list_of(any, text()),
+          "OpenFOAM commands that make mesh and fields, run in the copied case in this order.",
+          DEMVOF_AT(fluid.prepare)),
+
+      required(key("particles.script", text(),
+                   "The LIGGGHTS input script, counted from the case file's folder.",
+                   DEMVOF_AT(particles->script))),
+      changes_no_result(key("particles.ranks", integer(1, many_ranks), "MPI ranks of dem_side.",
+                            DEMVOF_AT(particles->ranks))),
+
+      required(key("bulk_grid.lower", list_of(3, number("m")), "Lower corner of the bulk grid.",
+                   DEMVOF_AT(bulk_grid->lower))),
+      required(key("bulk_grid.upper", list_of(3, number("m")),
+                   "Upper corner; above the lower one in every direction.", DEMVOF_AT(bulk_grid->upper))),
+      required(key("bulk_grid.cells", list_of(3, integer(1, many_cells)),
+                   "Number of bulk cells in each direction.", DEMVOF_AT(bulk_grid->cells))),
+
+      required(key("coupling.end_time", above(0, number("s")),
+                   "Simulated time at the end of the run, a whole number of windows.",
+                   DEMVOF_AT(coupling.end_time))),
+      required(key("coupling.window", above(0, number("s")),
+                   "Both sides advance by one window between exchanges; a whole number of DEM time steps.",
+                   DEMVOF_AT(coupling.window))),
+      key("coupling.schedule", one_of<Schedule>(), "Who advances when; staggered: one side after the other.",
+          DEMVOF_AT(coupling.schedule)),
+      key("coupling.exchange", one_of<ExchangeScheme>(), "How momentum passes between particles and fluid.",
+          DEMVOF_AT(coupling.exchange)),
+      key("coupling.sharing", one_of<Sharing>(), "How a bulk cell's source is shared among its fine cells.",
+          DEMVOF_AT(coupling.sharing)),
+      key("coupling.phase_interchange", one_of<PhaseInterchange>(),
+          "How particles cross the interface; porous: the void fraction stands in the alpha equation.",
+          DEMVOF_AT(coupling.phase_interchange)),
+      changes_no_result(key("coupling.time_out", above(0, number("s")),
+                            "A side that hears nothing from its partner for so long gives up (exit code 4).",
+                            DEMVOF_AT(coupling.time_out))),
+
+      key("coupling.averaging.kernel", one_of<Kernel>(), "Weights of a particle in the bulk cells around it.",
+          DEMVOF_AT(coupling.averaging.kernel)),
+      key("coupling.averaging.width", at_least(0, number("m")),
+          "Standard deviation of the gaussian kernel; 0: half a bulk cell.",
+          DEMVOF_AT(coupling.averaging.width)),
+      key("coupling.averaging.maximum_solid_fraction", above(0, at_most(1, number("-"))),
+          "Of a bulk cell; what is above moves to the neighbours, and is counted.",
+          DEMVOF_AT(coupling.averaging.maximum_solid_fraction)),
+
+      key("coupling.mapping.to_fine", one_of<Mapping>(), "From the bulk grid to the fine mesh.",
+          DEMVOF_AT(coupling.mapping.to_fine)),
+      key("coupling.mapping.to_bulk", one_of<Mapping>(), "From the fine mesh to the bulk grid.",
+          DEMVOF_AT(coupling.mapping.to_bulk)),
+
+      key("forces.drag", one_of<DragLaw>(), "Drag law, written {drag: law}.", DEMVOF_AT(forces.drag)),
+      key("forces.pressure_gradient", flag(),
+          "-V grad p on each particle (buoyancy included), written as the bare word.",
+          DEMVOF_AT(forces.pressure_gradient)),
+
+      key("scene.particles", one_of<Switch>(), "Particles; off: the run is made without them.",
+          DEMVOF_AT(scene.particles)),
+      key("scene.surface_tension", one_of<Switch>(),
+          "Curvature and surface tension; auto: on when a coefficient is above 0.",
+          DEMVOF_AT(scene.surface_tension)),
+      key("scene.interface", one_of<Switch>(),
+          "Transport of the liquid fraction; auto: on when there are two fluids.",
+          DEMVOF_AT(scene.interface_advection)),
+      key("scene.porosity", one_of<Switch>(),
+          "Void fraction in the fluid equations; auto: on with particles above the dilute limit.",
+          DEMVOF_AT(scene.porosity)),
+      key("scene.dilute_limit", at_least(0, at_most(1, number("-"))),
+          "With porosity auto: left out while the largest solid fraction on the bulk grid is below this.",
+          DEMVOF_AT(scene.dilute_limit)),
+
+      key("output.interval", at_least(0, number("s")), "Time between field outputs; 0: only at the end.",
+          DEMVOF_AT(output.interval)),
+      key("output.history_interval", at_least(0, number("s")),
+          "Time between rows of history.csv; 0: every window.", DEMVOF_AT(output.history_interval)),
+      key("output.history", list_of(any, text()), "Quantities in history.csv; empty: all that the scene has.",
+          DEMVOF_AT(output.history)),
+      key("output.pictures", list_of(any, at_least(0, number("s"))),
+          "Times shown in report.html; empty: begin, four between, end.", DEMVOF_AT(output.pictures)),
+  };
+}
+
+#undef DEMVOF_AT
+
+template <class Item>
+const Item* find(const std::vector<Item>& items, const std::string& path) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& i) { return i.path == path; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const std::vector<Section>& case_sections() {
+  static const std::vector<Section> sections = make_sections();
+  return sections;
+}
+const std::vector<Key>& case_keys() {
+  static const std::vector<Key> keys = make_keys();
+  return keys;
+}
+const Section* find_section(const std::string& path) {
+  return find(case_sections(), path);
+}
+const Key* find_key(const std::string& path) {
+  return find(case_keys(), path);
+}
+
+std::string parent_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+std::string name_of_key(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+CaseParameters default_parameters() {
+  CaseParameters parameters;
+  for (const Section& section : case_sections()) section.create(parameters);
+  return parameters;
+}
+
+}  // namespace demvof

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "coupler/config/keys.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+/// The map that holds a section's keys, made on the way.
+Json& place_of(Json& root, const std::string& section) {
+  return section.empty() ? root : place_of(root, parent_of(section))[name_of_key(section)];
+}
+
+bool present(const CaseParameters& parameters, const std::string& section) {
+  return section.empty() ||
+         (find_section(section)->present(parameters) && present(parameters, parent_of(section)));
+}
+
+/// The case file's form of all present sections, with the keys that wanted() accepts.
+template <class Wanted>
+Json configuration(const CaseParameters& parameters, Wanted wanted) {
+  Json root = Json::object();
+  for (const Key& key : case_keys()) {
+    const std::string section = parent_of(key.path), name = name_of_key(key.path);
+    if (!present(parameters, section) || !wanted(key)) continue;
+    Json& place = place_of(root, section);
+    const Json value = key.get(parameters);
+    if (!find_section(section)->is_list)
+      place[name] = value;
+    else if (!value.is_boolean())
+      place.push_back(Json{{name, value}});
+    else if (value.get<bool>())
+      place.push_back(name);
+  }
+  return root;
+}
+
+/// 64-bit FNV-1a (Fowler, Noll, Vo).
+std::uint64_t fnv1a(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const unsigned char byte : text) hash = (hash ^ byte) * 1099511628211ULL;
+  return hash;
+}
+
+}  // namespace
+
+std::string resolved_configuration(const CaseParameters& parameters) {
+  return configuration(parameters, [](const Key&) { return true; }).dump(2);
+}
+
+std::string configuration_hash(const CaseParameters& parameters) {
+  const auto wanted = [](const Key& key) { return key.changes_results; };
+  return fmt::format("{:016x}", fnv1a(configuration(parameters, wanted).dump()));
+}
+
+}  // namespace demvof
