@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "coupler/config/enum_names.hpp"
+#include "coupler/output/quantities.hpp"
 
 namespace demvof {
 namespace {
@@ -64,6 +65,12 @@ ValueRule one_of() {
   ValueRule rule;
   rule.form = Form::choice;
   for (const auto& item : enum_names<E>) rule.choices.push_back(item.second);
+  return rule;
+}
+ValueRule history_quantity() {
+  ValueRule rule;
+  rule.form = Form::choice;
+  for (const Quantity& quantity : known_quantities) rule.choices.emplace_back(quantity.name);
   return rule;
 }
 ValueRule above(double bound, ValueRule rule) {
@@ -224,10 +231,10 @@ std::vector<Key> make_keys() {
           DEMVOF_AT(output.interval)),
       key("output.history_interval", at_least(0, number("s")),
           "Time between rows of history.csv; 0: every window.", DEMVOF_AT(output.history_interval)),
-      key("output.history", list_of(any, text()), "Quantities in history.csv; empty: all that the scene has.",
-          DEMVOF_AT(output.history)),
+      key("output.history", list_of(any, history_quantity()),
+          "Quantities in history.csv; an empty list: all that the scene has.", DEMVOF_AT(output.history)),
       key("output.pictures", list_of(any, at_least(0, number("s"))),
-          "Times shown in report.html; empty: begin, four between, end.", DEMVOF_AT(output.pictures)),
+          "Times shown in report.html; an empty list: begin, four between, end.", DEMVOF_AT(output.pictures)),
   };
 }
 

@@ -75,8 +75,7 @@ struct SceneParameters {
   Switch surface_tension = Switch::automatic;
   Switch interface_advection = Switch::automatic;  // transport of alpha
   Switch porosity = Switch::automatic;             // eps in the fluid equations
-  double dilute_limit =
-      0;  // with porosity automatic: left out when the largest solid fraction stays below, -
+  double dilute_limit = 0;  // largest solid fraction up to which automatic porosity is left out, -
 };
 
 struct OutputParameters {

@@ -33,7 +33,7 @@ std::string noun(const ValueRule& rule, bool plural) {
     case Form::integer:
       return (plural ? "whole numbers" : "a whole number") + range_text(rule);
     case Form::choice:
-      return fmt::format("one of {}", fmt::join(rule.choices, ", "));
+      return fmt::format("{} {}", plural ? "words from" : "one of", fmt::join(rule.choices, ", "));
     case Form::flag:
       return "true or false";
   }

@@ -10,19 +10,19 @@ namespace demvof {
 
 /// What the programs found in a scene before the first step.
 struct SceneFacts {
-  double surface_tension = 0;       // largest coefficient in the fluid case, N/m
-  bool two_fluids = true;           // both fluids present at the start or at an inlet
-  bool turbulent = false;           // a turbulence model other than laminar
-  bool particles = false;           // a particle script is given
-  long particle_count = 0;          // at the start
-  bool inserts_particles = false;   // the script adds particles during the run
+  double surface_tension = 0;         // largest coefficient in the fluid case, N/m
+  bool two_fluids = true;             // both fluids present at the start or at an inlet
+  bool turbulent = false;             // a turbulence model other than laminar
+  bool particles = false;             // a particle script is given
+  long particle_count = 0;            // at the start
+  bool inserts_particles = false;     // the script adds particles during the run
   double largest_solid_fraction = 0;  // on the bulk grid at the start, -
 };
 
 struct Decision {
   std::string decision;  // e.g. "surface tension"
   bool on = false;
-  std::string reason;    // one sentence that names the fact or the forcing key
+  std::string reason;  // one sentence that names the fact or the forcing key
 };
 
 /// What a run has switched on, and why.
@@ -36,6 +36,10 @@ struct Scene {
 };
 
 /// Pure: the plan from the facts and what the case file forces.
-Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts);
+/// Throws InputError, one line per key, when the case file forces what the scene cannot have.
+Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces = {});
+
+/// The decisions as a table for people, one line each: "on   surface tension   reason".
+std::string scene_table(const std::vector<Decision>& decisions);
 
 }  // namespace demvof

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupler/config/enum_names.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+/// One plan in the making: what is forced and known, and the decisions so far.
+class Plan {
+ public:
+  Plan(const SceneParameters& forced, const SceneFacts& facts) : forced_(forced), facts_(facts) {}
+
+  bool particles();
+  bool interface_advection();
+  bool surface_tension();
+  bool porosity();
+  bool turbulence();
+  void forces(const ForceParameters& forces);
+  void empty_bulk_cells();
+
+  std::vector<Decision> decisions;
+  std::string impossible;  // what the case file forces in vain, one line each
+
+ private:
+  bool decide(const std::string& decision, bool on, const std::string& reason) {
+    decisions.push_back({decision, on, reason});
+    return on;
+  }
+  /// The case file's word, unless it asks for what cannot be; obstacle: why it cannot, or empty.
+  bool force(const std::string& decision, const std::string& key, Switch how, const std::string& obstacle) {
+    if (how == Switch::on && !obstacle.empty()) {
+      impossible += fmt::format("{}{}: on is impossible: {}", impossible.empty() ? "" : "\n", key, obstacle);
+      return false;
+    }
+    return decide(decision, how == Switch::on, fmt::format("The case file says {}: {}.", key, name_of(how)));
+  }
+
+  const SceneParameters& forced_;
+  const SceneFacts& facts_;
+  bool with_particles_ = false;
+};
+
+bool Plan::particles() {
+  const std::string name = "particles";
+  const std::string none = "the case has no particle script";
+  with_particles_ = facts_.particles && forced_.particles != Switch::off;
+  if (forced_.particles != Switch::automatic)
+    return force(name, "scene.particles", forced_.particles, facts_.particles ? "" : none);
+  if (!facts_.particles)
+    return decide(name, false, "The case has no particle script: plain VOF, no partner.");
+  return decide(name, true,
+                fmt::format("The script gives {} particles at the start{}.", facts_.particle_count,
+                            facts_.inserts_particles ? " and inserts more during the run" : ""));
+}
+
+void Plan::forces(const ForceParameters& forces) {
+  const auto decide_force = [this](const std::string& name, bool named) {
+    if (!with_particles_)
+      decide(name, false, "There are no particles.");
+    else
+      decide(name, named, named ? "It is named in forces." : "It is not named in forces.");
+  };
+  const bool drag = forces.drag != DragLaw::none;
+  decide_force(drag ? "drag (" + name_of(forces.drag) + ")" : "drag", drag);
+  decide_force("pressure-gradient force", forces.pressure_gradient);
+}
+
+bool Plan::interface_advection() {
+  const std::string name = "interface transport";
+  if (forced_.interface_advection != Switch::automatic)
+    return force(name, "scene.interface", forced_.interface_advection, "");
+  return facts_.two_fluids ? decide(name, true, "There are two fluids.")
+                           : decide(name, false, "One fluid fills the domain and all inlets.");
+}
+
+bool Plan::surface_tension() {
+  const std::string name = "surface tension";
+  const std::string obstacle = facts_.surface_tension <= 0 ? "the fluid case's coefficient is 0"
+                               : !facts_.two_fluids        ? "one fluid has no surface"
+                                                           : "";
+  if (forced_.surface_tension != Switch::automatic)
+    return force(name, "scene.surface_tension", forced_.surface_tension, obstacle);
+  if (facts_.surface_tension <= 0)
+    return decide(name, false, "The fluid case's coefficient is 0: no curvature is computed.");
+  if (!facts_.two_fluids) return decide(name, false, "One fluid has no surface: no curvature is computed.");
+  return decide(name, true, fmt::format("The fluid case's coefficient is {} N/m.", facts_.surface_tension));
+}
+
+bool Plan::porosity() {
+  const std::string name = "porosity";
+  const double limit = forced_.dilute_limit, fraction = facts_.largest_solid_fraction;
+  if (forced_.porosity != Switch::automatic)
+    return force(name, "scene.porosity", forced_.porosity, with_particles_ ? "" : "there are no particles");
+  if (!with_particles_) return decide(name, false, "There are no particles.");
+  if (limit <= 0) return decide(name, true, "There are particles, and no scene.dilute_limit is stated.");
+  if (facts_.inserts_particles)
+    return decide(name, true,
+                  "Particles are inserted during the run: scene.dilute_limit cannot be judged at the start.");
+  return fraction < limit
+             ? decide(name, false,
+                      fmt::format("The largest solid fraction, {:.3g}, is below scene.dilute_limit, {:.3g}.",
+                                  fraction, limit))
+             : decide(
+                   name, true,
+                   fmt::format("The largest solid fraction, {:.3g}, is not below scene.dilute_limit, {:.3g}.",
+                               fraction, limit));
+}
+
+void Plan::empty_bulk_cells() {
+  decide("exchange of bulk cells without particles near them", false,
+         with_particles_ ? "They are always left out: not averaged, not exchanged."
+                         : "There are no particles: nothing is averaged or exchanged.");
+}
+
+bool Plan::turbulence() {
+  return facts_.turbulent ? decide("turbulence model", true, "The fluid case names one.")
+                          : decide("turbulence model", false, "The fluid case is laminar.");
+}
+
+}  // namespace
+
+Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces) {
+  Plan plan(forced, facts);
+  Scene scene;
+  scene.particles = plan.particles();
+  plan.forces(forces);
+  scene.interface_advection = plan.interface_advection();
+  scene.surface_tension = plan.surface_tension();
+  scene.porosity = plan.porosity();
+  plan.empty_bulk_cells();
+  scene.turbulence = plan.turbulence();
+  if (!plan.impossible.empty()) throw InputError(plan.impossible);
+  scene.decisions = plan.decisions;
+  return scene;
+}
+
+std::string scene_table(const std::vector<Decision>& decisions) {
+  std::size_t width = 0;
+  for (const Decision& d : decisions) width = std::max(width, d.decision.size());
+  std::string table;
+  for (const Decision& d : decisions)
+    table += fmt::format("{:<3}  {:<{}}  {}\n", d.on ? "on" : "off", d.decision, width, d.reason);
+  return table;
+}
+
+}  // namespace demvof
