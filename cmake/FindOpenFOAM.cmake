@@ -25,23 +25,20 @@ set(_libraries
     immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels)
 
 # A sourced environment comes as a whole: its headers are never mixed with another installation's libraries.
-set(_sourced "$ENV{WM_PROJECT_DIR}")
-if(NOT EXISTS "${_sourced}/src/OpenFOAM/lnInclude")
-  set(_sourced "")
+set(_header_search ${PROJECT_SOURCE_DIR}/build/openfoam)
+set(_library_search)
+if(EXISTS "$ENV{FOAM_LIBBIN}/libOpenFOAM.so")
+  set(_header_search "$ENV{WM_PROJECT_DIR}")
+  set(_library_search PATHS "$ENV{FOAM_LIBBIN}" "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" NO_DEFAULT_PATH)
 endif()
 
 find_path(OpenFOAM_SOURCE_DIR src/OpenFOAM/lnInclude/foamVersion.H
-          PATHS "${_sourced}" ${PROJECT_SOURCE_DIR}/build/openfoam NO_DEFAULT_PATH
+          PATHS ${_header_search} NO_DEFAULT_PATH
           DOC "OpenFOAM source tree whose src/ has been through wmakeLnIncludeAll")
 find_path(OpenFOAM_PROJECT_DIR etc/controlDict
           PATHS "$ENV{WM_PROJECT_DIR}" /usr/share/openfoam NO_DEFAULT_PATH
           DOC "WM_PROJECT_DIR of running programs")
 
-if(_sourced)
-  set(_library_search PATHS "$ENV{FOAM_LIBBIN}" "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" NO_DEFAULT_PATH)
-else()
-  set(_library_search)
-endif()
 set(_library_files)
 set(_missing_libraries)
 foreach(_name IN LISTS _libraries ITEMS Pstream)
