@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the Allrun scripts of the cases share; sourced by them.
+
+# run_case DIR OPTIONS...: builds if needed, runs case.yaml of this folder into DIR with the given
+# options of `demvof run`, and makes the report, also of a run that stopped early.
+# Returns the exit code of `demvof run`, or Allwmake's if nothing could be built.
+run_case() {
+    local out=$1 status=0 root
+    shift
+    root=$(cd ../.. && pwd)
+    "$root/Allwmake" || return $?
+    "$root/build/release/bin/demvof" run case.yaml --out "$out" "$@" || status=$?
+    if [ $status -ne 2 ]; then    # 2: wrong input, nothing was run
+        "$root/build/release/bin/demvof" report "$out" || [ $status -ne 0 ] || status=3
+    fi
+    return $status
+}
+
+# needs_value OPTION COUNT: ends the script when the option is the last word of its command line.
+needs_value() {
+    if [ "$2" -lt 2 ]; then
+        echo "Allrun: $1 needs a value; see Allrun --help" >&2
+        exit 2
+    fi
+}
