@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/config/program_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iostream>
+
+namespace demvof {
+
+namespace {
+
+constexpr const char* footer =
+    "Started in pairs on one mpirun, with the same case file and options on both sides:\n"
+    "  mpirun -np 2 foam_side case.yaml : -np 1 dem_side case.yaml\n"
+    "`demvof run case.yaml` prepares the fluid case and starts exactly this.\n\n"
+    "Exit codes: 0 done, 2 the input is wrong, 3 the run failed or was interrupted, 4 the partner was lost.\n"
+    "SIGTERM, SIGINT or SIGUSR1 end the run cleanly after the present window.";
+
+bool first_process() {
+  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return !rank || std::string(rank) == "0";
+}
+
+}  // namespace
+
+ProgramOptions read_program_options(const std::string& program, const std::string& about, int argc,
+                                    char** argv) {
+  ProgramOptions options;
+  for (int i = 0; i < argc; ++i) options.command += std::string(i ? " " : "") + argv[i];
+
+  CLI::App app(about, program);
+  app.footer(footer);
+  app.add_option("case", options.case_file, "case file (YAML; docs/case_file.md)")->required();
+  app.add_option("--out", options.out, "folder of the run; default: run, beside the case file");
+  app.add_option("--set", options.overrides, "key=value: replaces one entry of the case file; repeatable")
+      ->allow_extra_args(false);
+  app.add_flag("--check", options.check, "open both sides, compare them, and stop before the first step");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& end) {
+    const bool wrong = end.get_exit_code() != 0;
+    if (first_process()) app.exit(end);
+    std::exit(wrong ? 2 : 0);
+  }
+  if (options.out.empty()) options.out = std::filesystem::path(options.case_file).parent_path() / "run";
+  options.out = std::filesystem::absolute(options.out).lexically_normal();
+  return options;
+}
+
+}  // namespace demvof

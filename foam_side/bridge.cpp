@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mapping between the fine mesh and the bulk grid (paper, section 6; docs/theory.md).
+//
+//   to the bulk grid   q_b = sum_f w_f V_fb q_f / sum_f w_f V_fb      V_fb: volume of fine cell f in bulk
+//   cell b to the fine mesh   force_f V_f = sum_b F_b w_f V_fb / W_b         W_b = sum_f w_f V_fb
+//
+// with w = eps rho (coupling.sharing: mass; every fine cell of a bulk cell gets the same
+// acceleration) or w = 1 (volume).
+
+#include "foam_side/bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "coupler/link/errors.hpp"
+#include "foam_side/fine_mesh.hpp"
+
+namespace demvof {
+
+namespace {
+
+// Below this the drag and pressure terms of the porous equations lose their meaning (closest packing
+// of spheres of one size leaves 0.26).
+constexpr double smallest_void_fraction = 0.05;
+
+/// Sums over the fine cells of a bulk cell that give its BulkFluid.
+struct FluidSums {
+  Vec3 weighted_velocity;  // sum w V u
+  double weight = 0;       // sum w V
+  Vec3 pressure_gradient;  // sum V grad p
+  double eps_rho = 0;      // sum V eps rho
+  double eps_mu = 0;       // sum V eps mu
+  double eps = 0;          // sum V eps
+  double volume = 0;       // sum V
+  Vec3 implicit_impulse;   // given to the fluid by the implicit part, N s
+};
+
+BulkFluid means(const FluidSums& sum) {
+  BulkFluid cell;
+  cell.velocity = sum.weighted_velocity / sum.weight;
+  cell.pressure_gradient = sum.pressure_gradient / sum.volume;
+  cell.density = sum.eps_rho / sum.eps;
+  cell.viscosity = sum.eps_mu / sum.eps;
+  cell.void_fraction = sum.eps / sum.volume;
+  return cell;
+}
+
+}  // namespace
+
+Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkPartition& partition, MPI_Comm world)
+    : flow_(flow),
+      parameters_(parameters),
+      world_(world),
+      grid_(parameters.bulk_grid->lower, parameters.bulk_grid->upper, parameters.bulk_grid->cells),
+      partition_(partition) {
+  remap();
+}
+
+void Bridge::remap() {
+  remap_ =
+      std::make_unique<Remap>(world_, grid_, partition_, fine_mesh(flow_.mesh), parameters_.coupling.mapping);
+  distribute();
+}
+
+void Bridge::take(CellValues<BulkParticles> particles) {
+  owned_ = std::move(particles);
+  distribute();
+}
+
+void Bridge::distribute() {
+  const TouchedCells& cells = remap_->cells();
+  const CellValues<double> marks{owned_.cells, std::vector<double>(owned_.cells.size(), 1.0)};
+  const std::vector<double> active = cells.fetch_from_owners(marks, 0.0);
+  touched_ = cells.fetch_from_owners(owned_, BulkParticles{});
+  sources_.resize(touched_.size());
+  for (std::size_t slot = 0; slot < touched_.size(); ++slot)
+    sources_[slot] = fluid_source(parameters_.coupling.exchange, touched_[slot], parameters_.coupling.window);
+  pieces_.clear();
+  std::copy_if(remap_->pieces().begin(), remap_->pieces().end(), std::back_inserter(pieces_),
+               [&](const Piece& piece) { return active[piece.slot] > 0; });
+  coefficient_part_.assign(pieces_.size(), 0.0);
+}
+
+scalarField Bridge::void_fraction() const {
+  std::vector<double> solid_volume(touched_.size());
+  for (std::size_t slot = 0; slot < touched_.size(); ++slot) solid_volume[slot] = touched_[slot].solid_volume;
+  const std::vector<double> solid_fraction = remap_->to_fine(solid_volume, 1);
+  scalarField eps(flow_.mesh.nCells());
+  forAll(eps, cell) {
+    eps[cell] = 1 - solid_fraction[cell];
+    if (eps[cell] >= smallest_void_fraction) continue;
+    const vector& at = flow_.mesh.C()[cell];
+    throw RunError(fmt::format(
+        "void fraction {:.3g} in the fine cell at ({:.5g} {:.5g} {:.5g}) m leaves no room for the fluid "
+        "(smallest possible: {}). Try a coarser bulk_grid, a larger coupling.averaging.width or a smaller "
+        "coupling.averaging.maximum_solid_fraction.",
+        eps[cell], at.x(), at.y(), at.z(), smallest_void_fraction));
+  }
+  return eps;
+}
+
+std::vector<double> Bridge::fine_weights() const {
+  std::vector<double> weight(static_cast<std::size_t>(flow_.mesh.nCells()), 1.0);
+  if (parameters_.coupling.sharing == Sharing::mass)
+    for (std::size_t cell = 0; cell < weight.size(); ++cell) {
+      const int index = static_cast<int>(cell);
+      weight[cell] = eps(index) * flow_.rho[index];
+    }
+  return weight;
+}
+
+void Bridge::spread_sources() {
+  const std::vector<double> weight = fine_weights();
+  std::vector<double> total(touched_.size(), 0.0);
+  for (const Piece& piece : pieces_) total[piece.slot] += weight[piece.fine] * piece.volume;
+  total = remap_->cells().fetch_from_owners(remap_->cells().sum_to_owners(total), 0.0);
+
+  ParticleSource& source = *flow_.source;
+  source.force = Foam::dimensionedVector(source.force.dimensions(), Foam::Zero);
+  source.coefficient = dimensionedScalar(source.coefficient.dimensions(), Foam::Zero);
+  source.reference = Foam::dimensionedVector(source.reference.dimensions(), Foam::Zero);
+  const auto& volume = flow_.mesh.V();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    const FluidSource& bulk = sources_[piece.slot];
+    const double share = weight[piece.fine] * piece.volume / (total[piece.slot] * volume[piece.fine]);
+    coefficient_part_[i] = share * bulk.coefficient;
+    source.force[piece.fine] += share * to_foam(bulk.explicit_force);
+    source.coefficient[piece.fine] += coefficient_part_[i];
+    source.reference[piece.fine] += coefficient_part_[i] * to_foam(bulk.reference_velocity);
+  }
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const double whole = source.coefficient[pieces_[i].fine];
+    coefficient_part_[i] = whole > 0 ? coefficient_part_[i] / whole : 0;
+  }
+  forAll(source.coefficient, cell) if (source.coefficient[cell] > 0) source.reference[cell] /=
+      source.coefficient[cell];
+}
+
+CellValues<BulkFluid> Bridge::bulk_fluid() const {
+  const std::vector<double> weight = fine_weights();
+  const tmp<volVectorField> gradient = pressure_gradient(flow_);
+  const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
+  std::vector<FluidSums> sums(touched_.size());
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    FluidSums& sum = sums[piece.slot];
+    const double v = piece.volume, eps_v = eps(piece.fine) * v;
+    sum.weighted_velocity += weight[piece.fine] * v * to_vec3(flow_.U[piece.fine]);
+    sum.weight += weight[piece.fine] * v;
+    sum.pressure_gradient += v * to_vec3(gradient()[piece.fine]);
+    sum.eps_rho += eps_v * flow_.rho[piece.fine];
+    sum.eps_mu += eps_v * viscosity()[piece.fine];
+    sum.eps += eps_v;
+    sum.volume += v;
+    sum.implicit_impulse += coefficient_part_[i] * flow_.mesh.V()[piece.fine] *
+                            to_vec3(flow_.source->implicit_impulse[piece.fine]);
+  }
+  const CellValues<FluidSums> owned = remap_->cells().sum_to_owners(sums);
+  CellValues<BulkFluid> fluid;
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    if (!(owned.values[i].volume > 0)) continue;
+    fluid.cells.push_back(owned.cells[i]);
+    fluid.values.push_back(means(owned.values[i]));
+    if (hands_back_left_over(parameters_.coupling.exchange))
+      fluid.values.back().left_over = -owned.values[i].implicit_impulse;
+  }
+  return fluid;
+}
+
+Bridge::Impulses Bridge::impulses() const {
+  const ParticleSource& source = *flow_.source;
+  vector explicit_force = vector::zero, implicit_impulse = vector::zero;
+  forAll(source.force, cell) {
+    explicit_force += flow_.mesh.V()[cell] * source.force[cell];
+    implicit_impulse += flow_.mesh.V()[cell] * source.implicit_impulse[cell];
+  }
+  Foam::reduce(explicit_force, Foam::sumOp<vector>());
+  Foam::reduce(implicit_impulse, Foam::sumOp<vector>());
+  return {parameters_.coupling.window * to_vec3(explicit_force), to_vec3(implicit_impulse)};
+}
+
+CellId Bridge::active_cells() const {
+  return Foam::returnReduce(static_cast<label>(owned_.cells.size()), Foam::sumOp<label>());
+}
+
+}  // namespace demvof

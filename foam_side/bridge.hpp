@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/remap.hpp"
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+
+/// The fluid side of the coupling: averages the fine mesh onto the bulk grid, and spreads what the
+/// particles did in a window over the fine mesh. Only active bulk cells (those that the particles
+/// sent) are averaged. All calls are collective over the fluid side.
+class Bridge {
+ public:
+  Bridge(Flow& flow, const CaseParameters& parameters, const BulkPartition& partition, MPI_Comm world);
+
+  /// Builds the way to the bulk grid anew, when the mesh has changed.
+  void remap();
+
+  /// Takes what the particles sent at the end of their window; these cells are active from now on.
+  /// particles: cells owned by this rank.
+  void take(CellValues<BulkParticles> particles);
+
+  /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
+  /// particles leave no room for the fluid.
+  scalarField void_fraction() const;
+
+  /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk
+  /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
+  void spread_sources();
+
+  /// The fluid on the active bulk cells owned by this rank, and the impulse that the implicit part
+  /// of the sources gave the fluid since begin_window: it is owed to the particles.
+  CellValues<BulkFluid> bulk_fluid() const;
+
+  /// Impulses of the window just simulated, sums over all ranks, N s.
+  struct Impulses {
+    Vec3 explicit_part, implicit_part;
+  };
+  Impulses impulses() const;
+
+  CellId active_cells() const;  // over all ranks
+
+ private:
+  void distribute();
+  std::vector<double> fine_weights() const;
+  double eps(int cell) const { return flow_.porosity ? flow_.porosity->eps[cell] : 1.0; }
+
+  Flow& flow_;
+  const CaseParameters& parameters_;
+  MPI_Comm world_;
+  BulkGrid grid_;
+  BulkPartition partition_;
+  std::unique_ptr<Remap> remap_;
+  CellValues<BulkParticles> owned_;       // as received
+  std::vector<BulkParticles> touched_;    // per touched cell of the remap
+  std::vector<FluidSource> sources_;      // per touched cell of the remap
+  std::vector<Piece> pieces_;             // those in active bulk cells
+  std::vector<double> coefficient_part_;  // per piece: its part of the fine cell's coefficient, -
+};
+
+}  // namespace demvof

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/scene_facts.hpp"
+
+#include <optional>
+
+#include "coupler/link/errors.hpp"
+#include "foam_side/fine_mesh.hpp"
+#include "localIOdictionary.H"
+#include "turbulenceModel.H"
+
+namespace demvof {
+
+namespace {
+
+using Foam::IOobject;
+using Foam::word;
+
+Foam::dictionary read_dictionary(const Foam::Time& time, const Foam::fileName& folder, const word& name) {
+  return Foam::IOdictionary(IOobject(name, folder, time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
+}
+
+/// True when every value that an entry like "uniform 1" or "nonuniform List ..." states is the same
+/// as reference; the first value seen becomes the reference.
+bool only_value(const Foam::entry& entry, std::optional<scalar>& reference) {
+  if (!entry.isStream()) return true;
+  Foam::ITstream& stream = entry.stream();
+  stream.rewind();
+  const Foam::token first(stream);
+  scalar value = 0;
+  if (first.isWord() && first.wordToken() == "uniform")
+    stream >> value;
+  else if (first.isNumber())
+    value = first.number();
+  else
+    return !(first.isWord() && first.wordToken() == "nonuniform");
+  if (!reference) reference = value;
+  return value == *reference;
+}
+
+/// Both fluids are present, at the start or at a boundary where one can come in.
+bool has_two_fluids(const Foam::Time& time, const word& phase) {
+  const Foam::localIOdictionary alpha(
+      IOobject("alpha." + phase, time.timeName(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false),
+      "volScalarField");
+  std::optional<scalar> value;
+  bool one = only_value(alpha.lookupEntry("internalField", Foam::keyType::LITERAL), value);
+  for (const Foam::entry& patch : alpha.subDict("boundaryField"))
+    if (patch.isDict() && patch.dict().lookupOrDefault<word>("type", "") != "zeroGradient")
+      for (const char* key : {"inletValue", "value"})
+        if (const Foam::entry* entry = patch.dict().findEntry(key, Foam::keyType::LITERAL))
+          one = only_value(*entry, value) && one;
+  return Foam::returnReduce(!one, Foam::orOp<bool>());
+}
+
+}  // namespace
+
+SceneFacts fluid_facts(const Foam::argList& args) {
+  const Foam::Time time(Foam::Time::controlDictName, args);
+  const Foam::dictionary transport = read_dictionary(time, time.constant(), "transportProperties");
+  const Foam::wordList phases(transport.lookup("phases"));
+  SceneFacts facts;
+  facts.surface_tension = dimensionedScalar("sigma", Foam::dimForce / Foam::dimLength, transport).value();
+  facts.two_fluids = has_two_fluids(time, phases[0]);
+  const Foam::dictionary turbulence =
+      read_dictionary(time, time.constant(), Foam::turbulenceModel::propertiesName);
+  facts.turbulent = word(turbulence.lookup("simulationType")) != "laminar";
+  return facts;
+}
+
+Vec3 case_gravity(const Foam::argList& args) {
+  const Foam::Time time(Foam::Time::controlDictName, args);
+  const Foam::uniformDimensionedVectorField g(
+      IOobject("g", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
+  return to_vec3(g.value());
+}
+
+}  // namespace demvof

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "coupler/scene/scene.hpp"
+#include "foam_side/openfoam.hpp"
+
+namespace demvof {
+
+/// What an interFoam case says about its scene, read from its dictionaries alone, before any mesh or
+/// field exists. Collective over the fluid side. Throws Foam::error on a case that cannot be read.
+SceneFacts fluid_facts(const Foam::argList& args);
+
+/// Gravity of the case, m/s2.
+Vec3 case_gravity(const Foam::argList& args);
+
+}  // namespace demvof
