@@ -2,40 +2,31 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
+#include <cstring>
+#include <list>
 #include <string>
 #include <vector>
 
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/link/errors.hpp"
+#include "coupler/link/exchange_plan.hpp"
 #include "coupler/link/own_world.hpp"
+#include "coupler/link/patience.hpp"
 
 namespace demvof {
-
-/// The partner is gone (killed, failed, silent beyond the time-out). Exit code 4.
-struct PartnerLost : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-/// A solver library (OpenFOAM, LIGGGHTS) ended the program on its own. Exit code 3.
-struct SolverStopped : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-/// The run failed while in a known stage. Exit code 3. what(): side, stage, time, what to try.
-struct RunError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// One fact that both sides must agree on before a run. Numbers agree within the relative tolerance
 /// (absolute where the larger magnitude is below 1e-300); tolerance < 0: compare text exactly.
 struct HandshakeItem {
-  std::string key;      // as in the case file where there is such a key
-  std::string value;    // text, or numbers separated by blanks
+  std::string key;    // as in the case file where there is such a key
+  std::string value;  // text, or numbers separated by blanks
   double tolerance = -1;
 };
 
 struct LinkStatistics {
-  double waiting_seconds = 0;       // this rank, waiting for the partner
-  double exchange_seconds = 0;      // this rank, packing and moving data, waiting apart
-  std::int64_t bytes_sent = 0, bytes_received = 0;  // this rank
+  double waiting_seconds = 0;                       // this rank, waiting for the partner
+  double exchange_seconds = 0;                      // this rank, packing and moving data, waiting apart
+  std::int64_t bytes_sent = 0, bytes_received = 0;  // this rank, bulk cells
   std::int64_t cells_sent = 0, cells_received = 0;
 };
 
@@ -44,9 +35,12 @@ enum class Continue : int { run = 0, stop_requested = 1, failed = 2 };
 
 /// The way between the two programs: an MPI intercommunicator on which each owner of bulk cells
 /// talks only to the partner's owners of the same cells. Waiting is passive and bounded.
+///
+/// Every call may throw PartnerLost (the partner cried for help, was killed, or was silent beyond the
+/// time-out) and RunError (a rank of this side cried for help, an MPI call failed).
 class Link {
  public:
-  /// Collective over both programs.
+  /// Collective over both programs. Throws InputError when there is no partner.
   Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds);
   ~Link();
   Link(const Link&) = delete;
@@ -56,36 +50,64 @@ class Link {
   const BulkPartition& mine() const { return mine_; }
   const BulkPartition& theirs() const { return theirs_; }
 
-  /// Compares every item with the partner's; items that only one side gives are not compared.
-  /// Throws InputError on both sides, on all ranks, with one line per disagreement:
-  /// the key and both values. facts: free text for the partner (JSON), returned is the partner's.
+  /// Compares every item with the partner's; items that only one side gives are not compared. The
+  /// larger of the two tolerances counts. Throws InputError on both sides, on all ranks, with one line
+  /// per disagreement: the key and both values. facts: free text for the partner (JSON), returned is
+  /// the partner's.
   std::string handshake(const std::vector<HandshakeItem>& items, const std::string& facts);
 
   /// Sends the values of cells owned by this rank. Every rank calls it, with or without cells.
-  template <class T> void send(const CellValues<T>& owned);
+  template <class T>
+  void send(const CellValues<T>& owned) {
+    send_rows(owned.cells, reinterpret_cast<const double*>(owned.values.data()), row_width<T>());
+  }
   /// Receives the values for the cells owned by this rank, as the partner sent them.
-  template <class T> CellValues<T> receive();
+  template <class T>
+  CellValues<T> receive() {
+    CellValues<T> received;
+    std::vector<double> rows;
+    receive_rows(received.cells, rows, row_width<T>());
+    received.values.resize(received.cells.size());
+    if (!rows.empty()) std::memcpy(static_cast<void*>(received.values.data()), rows.data(), 8 * rows.size());
+    return received;
+  }
 
-  /// Both roots swap a text at the same point of the loop; returned on all ranks.
+  /// Both sides swap a text at the same point of the loop: rank 0's counts, the partner's is returned
+  /// on all ranks.
   std::string swap_text(const std::string& mine);
 
   /// Called by both sides at the end of a window: true when both want to run on. A stop asked for
   /// on any rank of either side (signal) ends both after the same window.
   bool agree_to_continue(Continue wish);
+  /// What the last agreement came to: the gravest wish of all ranks of both sides.
+  Continue agreement() const { return agreement_; }
 
   /// Tells every partner rank that this side fails, without waiting for an answer, from any rank.
-  void cry_for_help(const std::string& reason) noexcept;
-  /// The orderly end of the link, when both sides are done.
+  void cry_for_help(const std::string& reason) noexcept { world_.cry_for_help(reason); }
+  /// The orderly end of the link, when both sides are done. Afterwards either side may end.
   void close();
 
   const LinkStatistics& statistics() const { return statistics_; }
 
  private:
+  using Words = std::vector<std::uint64_t>;  // cell numbers and doubles travel as words of 8 bytes
   void send_rows(const std::vector<CellId>& cells, const double* rows, int width);
   void receive_rows(std::vector<CellId>& cells, std::vector<double>& rows, int width);
+  void post(int to, int tag, Words message);
+  Words take(int from, int tag, const char* what);
+  void finish_sends();
+  void wait_for(MPI_Request& request, const char* what);
+  std::string from_rank_0(std::string text);
+
+  const OwnWorld& world_;
   BulkPartition mine_, theirs_;
+  std::vector<Counterpart> counterparts_;
+  Patience patience_;
   LinkStatistics statistics_;
-  // the rest is the implementer's choice
+  Continue agreement_ = Continue::run;
+  // Messages under way: they are done when the partner has them.
+  std::list<Words> sent_;
+  std::vector<MPI_Request> requests_;
 };
 
 }  // namespace demvof

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/alarm.hpp"
+
+#include <chrono>
+#include <thread>
+
+#include "coupler/link/mpi_check.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr int tag = 911;
+constexpr std::size_t longest = 3000;  // short enough to leave without the receiver's help
+
+}  // namespace
+
+void Alarm::cry(const std::string& reason) noexcept {
+  try {
+    int size = 0, rank = 0;
+    if (MPI_Comm_size(both_, &size) != MPI_SUCCESS || MPI_Comm_rank(both_, &rank) != MPI_SUCCESS) return;
+    texts_.push_back(reason.substr(0, longest));
+    const std::string& text = texts_.back();
+    for (int to = 0; to < size; ++to) {
+      if (to == rank) continue;
+      MPI_Request request;
+      // A rank that cannot be told is found out by its watch.
+      if (MPI_Isend(text.data(), static_cast<int>(text.size()), MPI_CHAR, to, tag, both_, &request) ==
+          MPI_SUCCESS)
+        requests_.push_back(request);
+    }
+  } catch (...) {
+  }
+}
+
+std::optional<Alarm::Cry> Alarm::listen() {
+  int heard = 0, length = 0;
+  MPI_Status status;
+  check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag, both_, &heard, &status), "MPI_Iprobe for cries");
+  if (!heard) return std::nullopt;
+  check_mpi(MPI_Get_count(&status, MPI_CHAR, &length), "MPI_Get_count of a cry");
+  Cry cry{status.MPI_SOURCE, std::string(length, ' ')};
+  check_mpi(MPI_Recv(cry.reason.data(), length, MPI_CHAR, cry.from, tag, both_, MPI_STATUS_IGNORE),
+            "MPI_Recv of a cry");
+  return cry;
+}
+
+void Alarm::hold_on(double seconds) noexcept {
+  using clock = std::chrono::steady_clock;
+  const auto end = clock::now() + std::chrono::duration<double>(seconds);
+  int sent = requests_.empty();
+  while (!sent && clock::now() < end) {
+    if (MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &sent, MPI_STATUSES_IGNORE) !=
+        MPI_SUCCESS)
+      return;
+    if (!sent) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+}  // namespace demvof

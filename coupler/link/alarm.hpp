@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace demvof {
+
+/// A word from a failing rank to every other rank of the pair.
+class Alarm {
+ public:
+  struct Cry {
+    int from;  // rank in the pair's communicator
+    std::string reason;
+  };
+
+  /// both: the communicator of all ranks of both programs; nothing else uses its messages' tag.
+  explicit Alarm(MPI_Comm both) : both_(both) {}
+
+  /// Does not wait and does not throw; hold_on gives it time to arrive.
+  void cry(const std::string& reason) noexcept;
+  /// What was heard since the last call, if anything.
+  std::optional<Cry> listen();
+  /// Keeps MPI going until the cries are under way, at most this long.
+  void hold_on(double seconds) noexcept;
+
+ private:
+  MPI_Comm both_;
+  std::list<std::string> texts_;  // must outlive their requests
+  std::vector<MPI_Request> requests_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/link.hpp"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/mpi_check.hpp"
+#include "coupler/link/run_stage.hpp"
+#include "coupler/link/signals.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr int tag_rows = 1, tag_text = 2;
+constexpr std::size_t header_words = 2;  // of a message with rows: row width, number of cells
+constexpr std::uint64_t word = sizeof(std::uint64_t);
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Link::Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
+    : world_(world),
+      mine_(bulk_cells, world.size()),
+      theirs_(bulk_cells, world.partner_size()),
+      patience_(world, time_out_seconds) {
+  if (world.partner_size() == 0)
+    throw InputError(fmt::format(
+        "{} was started without {}.\n"
+        "What to do: demvof run case.yaml, or mpirun -np 1 foam_side case.yaml : -np 1 dem_side case.yaml",
+        program_name(world.side()), program_name(partner_of(world.side()))));
+  counterparts_ = counterparts(mine_, world.rank(), theirs_);
+  prctl(PR_SET_TIMERSLACK, 1000UL);  // ns: the kernel's 50 us would blunt the short pauses of a wait
+}
+
+Link::~Link() {
+  // Left by an exception: what is still under way must not be overwritten before the process ends.
+  if (!requests_.empty()) new std::list<Words>(std::move(sent_));
+}
+
+void Link::post(int to, int tag, Words message) {
+  sent_.push_back(std::move(message));
+  requests_.emplace_back();
+  check_mpi(MPI_Isend(sent_.back().data(), static_cast<int>(sent_.back().size()), MPI_UINT64_T, to, tag,
+                      world_.pair().partner, &requests_.back()),
+            "MPI_Isend to the partner");
+}
+
+Link::Words Link::take(int from, int tag, const char* what) {
+  MPI_Message message;
+  MPI_Status status;
+  statistics_.waiting_seconds += patience_.wait(
+      [&] {
+        int there = 0;
+        check_mpi(MPI_Improbe(from, tag, world_.pair().partner, &there, &message, &status), "MPI_Improbe");
+        return there != 0;
+      },
+      [&] { return fmt::format("{} from {}", what, world_.partner(from).name()); });
+  int count = 0;
+  check_mpi(MPI_Get_count(&status, MPI_UINT64_T, &count), "MPI_Get_count");
+  Words words(count);
+  MPI_Request request;
+  check_mpi(MPI_Imrecv(words.data(), count, MPI_UINT64_T, &message, &request), "MPI_Imrecv");
+  patience_.wait(
+      [&] {
+        int done = 0;
+        check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test of a receive");
+        return done != 0;
+      },
+      [&] { return fmt::format("the rest of {} from {}", what, world_.partner(from).name()); });
+  return words;
+}
+
+void Link::wait_for(MPI_Request& request, const char* what) {
+  statistics_.waiting_seconds += patience_.wait(
+      [&] {
+        int done = 0;
+        check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+        return done != 0;
+      },
+      [&] { return std::string(what); });
+}
+
+void Link::finish_sends() {
+  if (requests_.empty()) return;
+  statistics_.waiting_seconds += patience_.wait(
+      [&] {
+        int done = 0;
+        check_mpi(
+            MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE),
+            "MPI_Testall of the messages sent");
+        return done != 0;
+      },
+      [&] { return fmt::format("{} to take what was sent", program_name(partner_of(world_.side()))); });
+  requests_.clear();
+  sent_.clear();
+}
+
+void Link::send_rows(const std::vector<CellId>& cells, const double* rows, int width) {
+  if (!cells.empty() &&
+      (cells.front() < mine_.begin(world_.rank()) || cells.back() >= mine_.end(world_.rank())))
+    throw std::logic_error("Link::send: a bulk cell of another rank");
+  finish_sends();
+  const double begin = now();
+  for (const Counterpart& other : counterparts_) {
+    const auto first = std::lower_bound(cells.begin(), cells.end(), other.begin);
+    const auto count = static_cast<std::size_t>(std::lower_bound(first, cells.end(), other.end) - first);
+    Words message(header_words + count * (1 + width));
+    message[0] = width;
+    message[1] = count;
+    if (count > 0) {
+      std::memcpy(&message[header_words], &*first, word * count);
+      std::memcpy(&message[header_words + count], rows + width * (first - cells.begin()),
+                  word * count * width);
+    }
+    statistics_.bytes_sent += static_cast<std::int64_t>(word * message.size());
+    statistics_.cells_sent += static_cast<std::int64_t>(count);
+    post(other.rank, tag_rows, std::move(message));
+  }
+  statistics_.exchange_seconds += now() - begin;
+}
+
+void Link::receive_rows(std::vector<CellId>& cells, std::vector<double>& rows, int width) {
+  const double begin = now(), waited_before = statistics_.waiting_seconds;
+  for (const Counterpart& other : counterparts_) {  // in the order of cells
+    const Words message = take(other.rank, tag_rows, "bulk cells");
+    const std::size_t count = message.size() < header_words ? 0 : message[1];
+    if (message.size() != header_words + count * (1 + width) ||
+        message[0] != static_cast<std::uint64_t>(width))
+      throw std::logic_error("Link::receive: the partner sent another kind of record");
+    const std::size_t before = cells.size();
+    cells.resize(before + count);
+    rows.resize((before + count) * width);
+    if (count > 0) {
+      std::memcpy(&cells[before], &message[header_words], word * count);
+      std::memcpy(&rows[before * width], &message[header_words + count], word * count * width);
+    }
+    statistics_.bytes_received += static_cast<std::int64_t>(word * message.size());
+  }
+  statistics_.cells_received += static_cast<std::int64_t>(cells.size());
+  statistics_.exchange_seconds += now() - begin - (statistics_.waiting_seconds - waited_before);
+}
+
+std::string Link::swap_text(const std::string& mine) {
+  finish_sends();
+  if (world_.rank() == 0) {
+    Words message(1 + (mine.size() + word - 1) / word);
+    message[0] = mine.size();
+    std::memcpy(message.data() + 1, mine.data(), mine.size());
+    for (int to = 0; to < world_.partner_size(); ++to) post(to, tag_text, message);
+  }
+  const Words message = take(0, tag_text, "a report");
+  return {reinterpret_cast<const char*>(message.data() + 1), message[0]};
+}
+
+std::string Link::from_rank_0(std::string text) {
+  auto length = static_cast<std::uint64_t>(text.size());
+  MPI_Request request;
+  check_mpi(MPI_Ibcast(&length, 1, MPI_UINT64_T, 0, world_.comm(), &request), "MPI_Ibcast");
+  wait_for(request, "rank 0 of this program");
+  text.resize(length);
+  check_mpi(MPI_Ibcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, world_.comm(), &request),
+            "MPI_Ibcast");
+  wait_for(request, "rank 0 of this program");
+  return text;
+}
+
+bool Link::agree_to_continue(Continue wish) {
+  int gravest = static_cast<int>(wish == Continue::run && stop_requested() ? Continue::stop_requested : wish);
+  MPI_Request request;
+  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, &gravest, 1, MPI_INT, MPI_MAX, world_.pair().both, &request),
+            "MPI_Iallreduce");
+  wait_for(request, "all ranks of both sides to end the window");
+  agreement_ = static_cast<Continue>(gravest);
+  return agreement_ == Continue::run;
+}
+
+void Link::close() {
+  finish_sends();
+  MPI_Request request;
+  check_mpi(MPI_Ibarrier(world_.pair().both, &request), "MPI_Ibarrier");
+  wait_for(request, "all ranks of both sides to end the run");
+  world_.pair().watch->stand_down();
+}
+
+}  // namespace demvof

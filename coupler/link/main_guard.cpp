@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/main_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <string>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/errors.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/link/run_stage.hpp"
+
+namespace demvof {
+namespace {
+
+std::string stopped(const OwnWorld& world, const std::string& why) {
+  return fmt::format("{} rank {} stopped {}:\n{}", program_name(world.side()), world.rank(),
+                     run_stage().describe(), why);
+}
+
+}  // namespace
+
+int guarded_main(OwnWorld& world, const std::function<int()>& body) {
+  try {
+    const int code = body();
+    world.finalise();
+    return code;
+  } catch (const InputError& error) {
+    world.fail(exit_input,
+               fmt::format("{}: the input is wrong:\n{}", program_name(world.side()), error.what()));
+  } catch (const PartnerLost& error) {
+    world.fail(exit_partner_lost, error.what());
+  } catch (const SolverStopped& error) {
+    world.fail(
+        exit_failed,
+        stopped(world, fmt::format("{}.\nWhat to try: the solver wrote the reason to {}.", error.what(),
+                                   world.side() == Side::fluid ? "fluid.log" : "particles.log")));
+  } catch (const std::exception& error) {
+    world.fail(exit_failed, stopped(world, error.what()));
+  } catch (...) {
+    world.fail(exit_failed, stopped(world, "an exception of unknown kind"));
+  }
+}
+
+}  // namespace demvof

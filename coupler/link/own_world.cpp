@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/own_world.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+
+#include "coupler/link/failure.hpp"
+#include "coupler/link/mpi_check.hpp"
+#include "coupler/link/pmpi.hpp"
+#include "coupler/link/run_stage.hpp"
+#include "coupler/link/signals.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double seconds_for_the_partner = 1;  // to hear of a failure and write its own results
+constexpr double seconds_for_the_crier = 3;    // to end first, so that mpirun reports its exit code
+
+OwnWorld* current = nullptr;
+std::thread::id main_thread;
+
+// Somebody ends the program behind our back: exit() in a solver, an exception nobody catches.
+void sudden_end(const char* why) {
+  if (std::this_thread::get_id() != main_thread || !current) {
+    if (claim_failure()) report_failure(exit_failed, why);
+    end_now(exit_failed);
+  }
+  current->fail(exit_failed, std::string(program_name(current->side())) + " stopped " +
+                                 run_stage().describe() + ": " + why +
+                                 ".\nWhat to try: the reason is in the solver's own log.");
+}
+
+void at_exit() {
+  if (!end_announced()) sudden_end("a solver library called exit()");
+}
+
+void on_terminate() {
+  std::string why = "the program was terminated";
+  if (const auto thrown = std::current_exception()) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const std::exception& error) {
+      why = error.what();
+    } catch (...) {
+    }
+  }
+  sudden_end(why.c_str());
+}
+
+MPI_Comm duplicate(MPI_Comm comm) {
+  MPI_Comm copy = MPI_COMM_NULL;
+  check_mpi(PMPI_Comm_dup(comm, &copy), "MPI_Comm_dup");
+  check_mpi(PMPI_Comm_set_errhandler(copy, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  return copy;
+}
+
+}  // namespace
+
+OwnWorld::OwnWorld(int& argc, char**& argv, Side side) : side_(side), pair_(std::make_unique<Pair>()) {
+  if (current) throw std::logic_error("one OwnWorld per process");
+  int provided = 0;
+  check_mpi(PMPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
+  pair_->both = duplicate(MPI_COMM_WORLD);
+  int world_rank = 0;
+  check_mpi(PMPI_Comm_rank(pair_->both, &world_rank), "MPI_Comm_rank");
+
+  MPI_Comm program = MPI_COMM_NULL;
+  check_mpi(PMPI_Comm_split(MPI_COMM_WORLD, static_cast<int>(side), world_rank, &program), "MPI_Comm_split");
+  comm_ = duplicate(program);
+  check_mpi(PMPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
+  check_mpi(PMPI_Comm_size(comm_, &size_), "MPI_Comm_size");
+
+  self_ = this_process(side, rank_);
+  pair_->processes = all_processes(pair_->both, self_);
+  std::vector<Process> others;
+  for (int rank = 0; rank < static_cast<int>(pair_->processes.size()); ++rank) {
+    const Process& process = pair_->processes[rank];
+    if (process.side != side) {
+      ++partner_size_;
+      if (process.rank == 0) partner_leader_ = rank;
+    }
+    if (rank != world_rank) others.push_back(process);
+  }
+  if (partner_size_ > 0) {
+    check_mpi(PMPI_Intercomm_create(comm_, 0, pair_->both, partner_leader_, 0, &pair_->partner),
+              "MPI_Intercomm_create");
+    check_mpi(PMPI_Comm_set_errhandler(pair_->partner, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  }
+
+  current = this;
+  main_thread = std::this_thread::get_id();
+  pair_->alarm = std::make_unique<Alarm>(pair_->both);
+  pair_->watch = std::make_unique<Watch>(self_, others);
+  install_signal_handlers();
+  on_sudden_end(sudden_end);
+  std::set_terminate(on_terminate);
+  std::atexit(at_exit);
+  substitute_world(program);
+}
+
+OwnWorld::~OwnWorld() {
+  current = nullptr;
+}
+
+const Process& OwnWorld::partner(int rank) const {
+  for (const Process& process : pair_->processes)
+    if (process.side != side_ && process.rank == rank) return process;
+  throw std::logic_error("no such partner rank");
+}
+
+void OwnWorld::cry_for_help(const std::string& reason) const noexcept {
+  pair_->alarm->cry(reason);
+}
+
+void OwnWorld::fail(int exit_code, const std::string& message) const {
+  using namespace std::chrono_literals;
+  if (!claim_failure()) {  // the watch was first and ends the process
+    for (int i = 0; i < 100; ++i) std::this_thread::sleep_for(100ms);
+    end_now(exit_code);
+  }
+  cry_for_help(message);
+  // All ranks of a side mostly fail with the same words: rank 0 says them, and the others wait for it.
+  report_failure(exit_code, message, rank_ != 0 && heard_the_same(message));
+  const bool fault_is_here = exit_code != exit_partner_lost;
+  const auto begin = std::chrono::steady_clock::now();
+  pair_->alarm->hold_on(seconds_for_the_partner);
+  const double grace = fault_is_here ? seconds_for_the_partner : seconds_for_the_crier;
+  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(grace)) {
+    if (!fault_is_here && (pair_->watch->someone_lost() || stop_requested())) break;
+    std::this_thread::sleep_for(5ms);
+  }
+  end_now(exit_code);
+}
+
+bool OwnWorld::heard_the_same(const std::string& reason) const {
+  using namespace std::chrono_literals;
+  for (int i = 0; i < 60; ++i) {
+    try {
+      if (const auto cry = pair_->alarm->listen())
+        if (pair_->processes[cry->from].side == side_ && cry->reason == reason.substr(0, cry->reason.size()))
+          return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+void OwnWorld::finalise() {
+  if (end_announced()) return;
+  pair_->watch->stand_down();
+  announce_end();
+  check_mpi(PMPI_Finalize(), "MPI_Finalize");
+}
+
+}  // namespace demvof

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/patience.hpp"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+
+#include "coupler/link/errors.hpp"
+#include "coupler/link/run_stage.hpp"
+
+namespace demvof {
+namespace {
+
+// A pause is a tenth of what was waited so far: being late costs at most that, and a long wait costs
+// next to no CPU time.
+constexpr double shortest_pause = 20e-6, longest_pause = 1e-3, share_of_wait = 0.1;  // s, s, -
+
+double now() {
+  timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+Patience::Wait::Wait(Patience& patience) : patience_(patience), begin_(now()) {
+  patience_.world_.pair().watch->main_thread_waits(true);
+}
+
+Patience::Wait::~Wait() {
+  patience_.world_.pair().watch->main_thread_waits(false);
+}
+
+double Patience::Wait::seconds() const {
+  return now() - begin_;
+}
+
+bool Patience::Wait::sleep() {
+  patience_.world_.pair().watch->check();
+  patience_.listen();
+  const double waited = seconds();
+  const double pause = std::clamp(share_of_wait * waited, shortest_pause, longest_pause);
+  const timespec time{0, static_cast<long>(1e9 * pause)};
+  nanosleep(&time, nullptr);  // a signal may end it early
+  return waited > patience_.time_out_;
+}
+
+void Patience::listen() const {
+  const auto cry = world_.pair().alarm->listen();
+  if (!cry) return;
+  const Process& crier = world_.pair().processes[cry->from];
+  const std::string text = fmt::format("{}: {} failed:\n{}", world_.self().name(), crier.name(), cry->reason);
+  if (crier.side == world_.side()) throw RunError(text);
+  throw PartnerLost(text);
+}
+
+void Patience::give_up(const std::string& waiting_for) const {
+  throw PartnerLost(
+      fmt::format("{} waited {:g} s for {} ({}) and gave up.\n"
+                  "What to try: look whether the partner is stuck; raise coupling.time_out if its windows "
+                  "take that long.",
+                  world_.self().name(), time_out_, waiting_for, run_stage().describe()));
+}
+
+}  // namespace demvof

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "coupler/link/own_world.hpp"
+
+namespace demvof {
+
+/// Waiting for others without burning a core, not for ever, and not for the dead.
+class Patience {
+ public:
+  Patience(const OwnWorld& world, double time_out_seconds) : world_(world), time_out_(time_out_seconds) {}
+
+  /// Polls done() with growing pauses until it is true. Throws PartnerLost or RunError when a rank of
+  /// the partner or of this side cries for help, and PartnerLost when a process ends or the time-out
+  /// passes; waiting_for: what and from whom, for the message. Returns the seconds waited.
+  template <class Done, class Words>
+  double wait(Done done, Words waiting_for) {
+    if (done()) return 0;
+    Wait wait(*this);
+    while (!done()) wait.pause(waiting_for);
+    return wait.seconds();
+  }
+
+ private:
+  class Wait {
+   public:
+    explicit Wait(Patience& patience);
+    ~Wait();
+    double seconds() const;
+    template <class Words>
+    void pause(Words waiting_for) {
+      if (sleep()) patience_.give_up(waiting_for());
+    }
+
+   private:
+    bool sleep();  // true when the time-out has passed
+    Patience& patience_;
+    double begin_;
+  };
+  [[noreturn]] void give_up(const std::string& waiting_for) const;
+  void listen() const;
+
+  const OwnWorld& world_;
+  double time_out_;
+};
+
+}  // namespace demvof

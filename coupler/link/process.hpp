@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+#include "coupler/link/side.hpp"
+
+namespace demvof {
+
+/// One process of the pair, as the others know it.
+struct Process {
+  Side side;
+  int rank;                  // in its own program
+  long pid;                  // on its host
+  unsigned long long start;  // when it was started, in the kernel's count: a pid may be given again
+  std::string host;
+
+  /// "dem_side rank 0 (process 4711 on host)"
+  std::string name() const;
+};
+
+/// The calling process.
+Process this_process(Side side, int rank);
+/// All processes of a communicator in the order of its ranks. Collective.
+std::vector<Process> all_processes(MPI_Comm comm, const Process& self);
+/// False when the process has ended, be it unburied (a zombie), or cannot be seen from here
+/// (another host, another process namespace).
+bool is_running(const Process& process);
+
+}  // namespace demvof

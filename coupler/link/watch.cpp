@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/watch.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <semaphore.h>
+#include <signal.h>
+#include <time.h>
+
+#include "coupler/link/errors.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/link/run_stage.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr long turn_ms = 200;         // between two looks at the processes
+constexpr long main_thread_ms = 300;  // for a waiting main thread to report a loss itself
+constexpr long report_ms = 6000;      // for the main thread to report and end the process
+
+struct Bell {
+  Bell() { sem_init(&semaphore, 0, 0); }
+  sem_t semaphore;
+} bell;
+
+// True when rung, false after the given time.
+bool wait_for_bell(long milliseconds) {
+  timespec until;
+  clock_gettime(CLOCK_REALTIME, &until);
+  until.tv_nsec += milliseconds * 1000000;
+  until.tv_sec += until.tv_nsec / 1000000000;
+  until.tv_nsec %= 1000000000;
+  return sem_timedwait(&bell.semaphore, &until) == 0;
+}
+
+// Signals are for the main thread: solvers' handlers expect to run there.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+Watch::Watch(const Process& self, const std::vector<Process>& others) : self_name_(self.name()) {
+  for (const Process& other : others)
+    if (other.host == self.host && is_running(other)) watched_.push_back(other);
+  const SignalsBlocked inherited_by_the_thread;
+  thread_ = std::thread([this] { keep_watch(); });
+}
+
+Watch::~Watch() {
+  quit_ = true;
+  look_now();
+  thread_.join();
+}
+
+void Watch::look_now() {
+  sem_post(&bell.semaphore);
+}
+
+void Watch::check() const {
+  if (lost_) throw PartnerLost(loss_);
+}
+
+const Process* Watch::find_ended() const {
+  for (const Process& process : watched_)
+    if (!is_running(process)) return &process;
+  return nullptr;
+}
+
+void Watch::keep_watch() {
+  while (!quit_) {
+    wait_for_bell(turn_ms);
+    if (quit_ || standing_down_) continue;
+    if (const Process* ended = find_ended()) {
+      handle_loss(*ended);
+      return;
+    }
+  }
+}
+
+void Watch::handle_loss(const Process& ended) {
+  loss_ = fmt::format(
+      "{} lost {}: it was killed or ended without a word. {} was {}.\n"
+      "What to try: see what it wrote last, and whether the machine ran out of memory.",
+      self_name_, ended.name(), "This side", run_stage().describe());
+  lost_ = true;
+  const auto pause = [this](long milliseconds) {
+    for (long waited = 0; waited < milliseconds && !quit_ && !standing_down_; waited += 20) wait_for_bell(20);
+  };
+  if (main_waits_) pause(main_thread_ms);
+  if (quit_ || standing_down_) return;
+  if (claim_failure()) {
+    report_failure(exit_partner_lost, loss_);
+    end_now(exit_partner_lost);
+  }
+  pause(report_ms);
+  if (!quit_ && !standing_down_) end_now(exit_partner_lost);
+}
+
+}  // namespace demvof

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "coupler/link/process.hpp"
+
+namespace demvof {
+
+/// Looks after the other processes of the pair on this host, from a thread of its own: the main
+/// thread may be deep inside a solver when one of them is killed.
+///
+/// When one has ended, a main thread that waits for the partner throws PartnerLost (check); one that
+/// computes is not waited for: the watch itself reports, speaks the last words and ends the process
+/// with exit code 4. mpirun kills the rest of a job one second after the first death.
+class Watch {
+ public:
+  /// others: processes to look after; those that cannot be seen from here are left out.
+  Watch(const Process& self, const std::vector<Process>& others);
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  /// Throws PartnerLost, naming the process, when one has ended. Costs one atomic read.
+  void check() const;
+  /// The main thread tells when it waits and so will call check() within milliseconds.
+  void main_thread_waits(bool waits) { main_waits_ = waits; }
+  /// From now on other processes may end.
+  void stand_down() { standing_down_ = true; }
+  bool someone_lost() const { return lost_; }
+
+  /// Makes the watch look now rather than at its next turn. Async-signal-safe.
+  static void look_now();
+
+ private:
+  void keep_watch();
+  const Process* find_ended() const;
+  void handle_loss(const Process& ended);
+
+  std::string self_name_;
+  std::vector<Process> watched_;
+  std::string loss_;  // written once before lost_ is set
+  std::atomic<bool> lost_{false}, main_waits_{false}, standing_down_{false}, quit_{false};
+  std::thread thread_;
+};
+
+}  // namespace demvof
