@@ -25,6 +25,19 @@ class CellBlock {
     return (ijk[0] - first_[0]) +
            std::size_t(size_[0]) * ((ijk[1] - first_[1]) + std::size_t(size_[1]) * (ijk[2] - first_[2]));
   }
+  /// Place of the cell moved by step (-1, 0 or 1 per axis), which must lie in the block; -1 beyond a wall of
+  /// the grid (periodic directions wrap).
+  std::ptrdiff_t place_beside(std::array<int, 3> ijk, const std::array<int, 3>& step) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int n = grid_->cells()[axis];
+      ijk[axis] += step[axis];
+      if (grid_->periodic()[axis])
+        ijk[axis] = (ijk[axis] + n) % n;
+      else if (ijk[axis] < 0 || ijk[axis] >= n)
+        return -1;
+    }
+    return static_cast<std::ptrdiff_t>(place(ijk));
+  }
   void mark(std::size_t place) { slot_[place] = 0; }
   /// All marked cells, sorted by number. From here on slot() gives a marked cell's index in this list.
   std::vector<CellId> list_marked() {

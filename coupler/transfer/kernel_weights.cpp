@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "coupler/grid/cell_block.hpp"
 #include "coupler/transfer/axis_kernel.hpp"
@@ -28,10 +29,12 @@ CellBlock reachable_block(const BulkGrid& grid, const std::array<AxisKernel, 3>&
 }  // namespace
 
 KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging,
-                             const std::vector<Vec3>& positions) {
-  KernelWeights weights;
-  weights.first.reserve(positions.size() + 1);
-  weights.first.push_back(0);
+                             const std::vector<Vec3>& positions, KernelWeights storage) {
+  KernelWeights weights = std::move(storage);
+  weights.cells.clear();
+  weights.slot.clear();
+  weights.weight.clear();
+  weights.first.assign(1, 0);
   if (positions.empty()) return weights;
 
   const std::array<AxisKernel, 3> kernels{AxisKernel(grid, averaging, 0), AxisKernel(grid, averaging, 1),
@@ -44,10 +47,6 @@ KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& av
     kernels[2].shares(position.z, z);
     std::size_t entry = weights.slot.size();
     const std::size_t entries = x.index.size() * y.index.size() * z.index.size();
-    if (entry == 0) {  // most particles have as many entries as the first one
-      weights.slot.reserve(entries * positions.size());
-      weights.weight.reserve(entries * positions.size());
-    }
     weights.slot.resize(entry + entries);
     weights.weight.resize(entry + entries);
     for (std::size_t c = 0; c < z.index.size(); ++c)

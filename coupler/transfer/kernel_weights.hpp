@@ -11,16 +11,17 @@ namespace demvof {
 /// The share w_ic of each particle i in each bulk cell c it reaches. The shares of one particle add
 /// up to 1, also at walls, where the weight that would leave the grid goes back to the cells inside.
 struct KernelWeights {
-  std::vector<CellId> cells;    // touched cells, sorted, without repeats
-  std::vector<int> first;       // particle i has entries first[i] .. first[i+1]-1
-  std::vector<int> slot;        // entry -> index into cells
-  std::vector<double> weight;   // entry -> w_ic
+  std::vector<CellId> cells;   // touched cells, sorted, without repeats
+  std::vector<int> first;      // particle i has entries first[i] .. first[i+1]-1
+  std::vector<int> slot;       // entry -> index into cells
+  std::vector<double> weight;  // entry -> w_ic
   int particles() const { return static_cast<int>(first.size()) - 1; }
 };
 
-/// Weights of the given particles. kernel width as in AveragingParameters.
+/// Weights of the given particles. kernel width as in AveragingParameters; positions beyond a wall count as
+/// on the wall. storage: weights no longer needed, moved in so that their memory is used again.
 KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging,
-                             const std::vector<Vec3>& positions);
+                             const std::vector<Vec3>& positions, KernelWeights storage = {});
 
 /// Sum over particles of w_ic * rows, per touched cell. rows: particles x width.
 void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows);

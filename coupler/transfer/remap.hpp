@@ -1,56 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/cell_block.hpp"
 #include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/limited_slopes.hpp"
+#include "coupler/transfer/pieces.hpp"
 
 namespace demvof {
-
-/// A polyhedral cell by its faces, each a list of corners ordered so that normals point outward.
-struct Polyhedron {
-  std::vector<std::vector<Vec3>> faces;
-};
-
-/// What the remap needs to know of this rank's fine mesh cells.
-struct FineMesh {
-  std::vector<double> volume;         // m3
-  std::vector<Vec3> centre;           // centroid, m
-  std::vector<Vec3> lower, upper;     // bounding box, m
-  std::function<Polyhedron(int cell)> shape;  // called only for cells that straddle bulk cells
-};
-
-/// One piece: the part of a fine cell that lies in a bulk cell. The volumes of the pieces of a fine
-/// cell add up to its volume to round-off.
-struct Piece {
-  int fine;       // fine cell
-  int slot;       // index into Remap::cells().cells()
-  double volume;  // m3
-  Vec3 centroid;  // m
-};
 
 /// The way between this rank's fine mesh cells and the bulk grid. Built anew when the mesh changes.
 ///
 /// Extensive data to the fine mesh keep their integral; means to the bulk grid are volume-weighted.
-/// Construction and all calls are collective over the communicator of the fluid side.
+/// mapping.to_bulk says how fine cells are cut into pieces, mapping.to_fine what the profile in a bulk
+/// cell is (constant, or linear with limited slopes). With `nearest` for both this is the paper's MAP.
+///
+/// Construction is collective over the communicator of the fluid side; the calls after it are local.
 class Remap {
  public:
   Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, const FineMesh& mesh,
         const MappingParameters& mapping);
 
-  /// Bulk cells that this rank's fine cells overlap, and their face neighbours.
+  /// Bulk cells that this rank's fine cells overlap, and all cells around these (faces, edges, corners).
   const TouchedCells& cells() const { return cells_; }
+  /// In the order of the fine cells.
   const std::vector<Piece>& pieces() const { return pieces_; }
   /// Fluid domain volume of each touched bulk cell (over all ranks), m3; 0 outside the mesh.
   const std::vector<double>& bulk_volume() const { return bulk_volume_; }
 
   /// Density field on the fine cells from cell totals on the bulk grid (per unit volume).
-  /// totals[slot*width + m]: extensive amounts per touched bulk cell; returns fine cells x width.
-  /// Mapping::nearest: constant in a bulk cell. Mapping::conservative: linear with limited slope and
-  /// zero mean change. sum over fine cells of V * result = sum of totals, to round-off.
+  /// totals[slot*width + m]: extensive amounts per touched bulk cell, the same on every rank that touches
+  /// the cell; returns fine cells x width. Over all ranks, sum over fine cells of V * result = sum of
+  /// totals, and the pieces of each bulk cell receive exactly its total, to round-off. Totals of cells
+  /// without fluid (bulk_volume 0) are not given to anybody.
+  /// Mapping::conservative: second order for smooth data; no value outside the range of the means in the
+  /// bulk cell and the cells around it, so that totals >= 0 give a result >= 0.
   std::vector<double> to_fine(const std::vector<double>& totals, int width) const;
 
   /// This rank's part of sum over pieces of volume * weight_fine * value_fine, per touched bulk cell
@@ -60,10 +47,22 @@ class Remap {
                                    const std::vector<double>& weight) const;
 
  private:
+  struct Overlap {
+    CutMesh cut;
+    CellBlock block;
+    std::vector<CellId> cells;
+  };
+  static Overlap find_overlap(const BulkGrid& grid, const FineMesh& mesh, Mapping to_bulk);
+  Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, const FineMesh& mesh,
+        Mapping to_fine, Overlap overlap);
+
   TouchedCells cells_;
   std::vector<Piece> pieces_;
+  std::vector<double> inverse_volume_;  // of the fine cells, 1/m3
   std::vector<double> bulk_volume_;
-  // the rest is the implementer's choice
+  std::vector<Vec3> bulk_centroid_;  // of the fluid domain in each touched bulk cell, m
+  std::vector<int> slope_of_;        // slot -> index of its slope in slopes_, -1 for none
+  LimitedSlopes slopes_;
 };
 
 }  // namespace demvof

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/transfer/kernel_weights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "coupler/transfer/axis_kernel.hpp"
+
+namespace demvof {
+namespace {
+
+const Kernel all_kernels[] = {Kernel::centre, Kernel::linear, Kernel::gaussian};
+
+AveragingParameters averaging(Kernel kernel, double width = 0) {
+  AveragingParameters parameters;
+  parameters.kernel = kernel;
+  parameters.width = width;
+  return parameters;
+}
+
+/// Shares of one particle by cell.
+std::map<CellId, double> shares(const BulkGrid& grid, const AveragingParameters& parameters, Vec3 position) {
+  const KernelWeights weights = kernel_weights(grid, parameters, {position});
+  std::map<CellId, double> result;
+  for (int e = weights.first[0]; e < weights.first[1]; ++e)
+    result[weights.cells[weights.slot[e]]] += weights.weight[e];
+  return result;
+}
+
+/// Points inside, on walls, edges and corners, and outside of the box.
+std::vector<Vec3> awkward_points(const BulkGrid& grid) {
+  std::vector<Vec3> points;
+  for (const double x : {-0.4, 0.0, 0.02, 0.5, 0.7311, 1.0, 2.5})
+    for (const double y : {-3.0, 0.0, 0.25, 0.99, 1.0, 1.01})
+      for (const double z : {-0.001, 0.0, 0.4999999, 1.0, 1.3}) {
+        const Vec3 size = grid.upper() - grid.lower();
+        points.push_back(grid.lower() + Vec3{x * size.x, y * size.y, z * size.z});
+      }
+  return points;
+}
+
+TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
+  for (const bool periodic : {false, true})
+    for (const std::array<int, 3> cells : {std::array<int, 3>{20, 10, 30}, {1, 1, 1}, {2, 1, 5}})
+      for (const Kernel kernel : all_kernels)
+        for (const double width : {0.0, 1e-4, 0.013, 0.3}) {
+          const BulkGrid grid({-0.1, 0, 1}, {0.1, 0.1, 1.3}, cells, {periodic, false, periodic});
+          const std::vector<Vec3> points = awkward_points(grid);
+          const KernelWeights weights = kernel_weights(grid, averaging(kernel, width), points);
+          ASSERT_EQ(weights.particles(), int(points.size()));
+          EXPECT_TRUE(std::is_sorted(weights.cells.begin(), weights.cells.end()));
+          EXPECT_EQ(std::adjacent_find(weights.cells.begin(), weights.cells.end()), weights.cells.end());
+          for (int i = 0; i < weights.particles(); ++i) {
+            double sum = 0;
+            std::vector<int> slots;
+            for (int e = weights.first[i]; e < weights.first[i + 1]; ++e) {
+              EXPECT_GE(weights.weight[e], 0);
+              sum += weights.weight[e];
+              slots.push_back(weights.slot[e]);
+            }
+            EXPECT_NEAR(sum, 1, 1e-14);
+            std::sort(slots.begin(), slots.end());
+            EXPECT_EQ(std::adjacent_find(slots.begin(), slots.end()), slots.end()) << "a cell twice";
+          }
+        }
+}
+
+TEST(KernelWeights, NoParticlesNoCells) {
+  const KernelWeights weights = kernel_weights(BulkGrid({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), {}, {});
+  EXPECT_EQ(weights.particles(), 0);
+  EXPECT_TRUE(weights.cells.empty());
+}
+
+TEST(KernelWeights, CentreGivesAllToTheCellOfTheParticle) {
+  const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30});
+  for (const Vec3& point : awkward_points(grid)) {
+    const auto all = shares(grid, averaging(Kernel::centre), point);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all.begin()->first, grid.id(grid.locate(point)));
+  }
+}
+
+TEST(KernelWeights, LinearIsTheTrilinearHat) {
+  const BulkGrid grid({0, 0, 0}, {4, 4, 4}, {4, 4, 4});
+  const auto inside = shares(grid, averaging(Kernel::linear), {1.7, 2.4, 2.5});
+  // centres 1.5 | 2.5 in x (0.8, 0.2), 1.5 | 2.5 in y (0.1, 0.9), on 2.5 in z
+  EXPECT_NEAR(inside.at(grid.id({1, 1, 2})), 0.08, 1e-15);
+  EXPECT_NEAR(inside.at(grid.id({2, 1, 2})), 0.02, 1e-15);
+  EXPECT_NEAR(inside.at(grid.id({1, 2, 2})), 0.72, 1e-15);
+  EXPECT_NEAR(inside.at(grid.id({2, 2, 2})), 0.18, 1e-15);
+  const auto corner = shares(grid, averaging(Kernel::linear), {0.1, 4, -2});
+  EXPECT_NEAR(corner.at(grid.id({0, 3, 0})), 1, 1e-15);
+}
+
+TEST(KernelWeights, LinearKernelSamplesLinearFieldsExactly) {
+  const BulkGrid grid({0, -1, 3}, {2, 0, 6}, {8, 5, 9});
+  const auto field = [](const Vec3& x) { return 3 - 2 * x.x + 7 * x.y + 0.5 * x.z; };
+  std::mt19937 random(3);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 500; ++i) {  // at least half a cell away from walls
+    const auto in = [&](double low, double high) {
+      return std::uniform_real_distribution<>(low, high)(random);
+    };
+    points.push_back({in(0.125, 1.875), in(-0.9, -0.1), in(3 + 1. / 6, 6 - 1. / 6)});
+  }
+  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points);
+  std::vector<double> cell_values, values(points.size());
+  for (const CellId cell : weights.cells) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
+  sample(weights, cell_values.data(), 1, values.data());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(values[i], field(points[i]), 2e-14);
+}
+
+TEST(KernelWeights, GaussianSharesAreIntegralsOfTheCutGaussian) {
+  // Independent: Simpson's rule for the density of one axis, far from walls.
+  const BulkGrid grid({0, 0, 0}, {20, 1, 1}, {20, 1, 1});
+  const double x_p = 9.83, width = 0.7;
+  const auto density = [&](double x) { return std::exp(-0.5 * std::pow((x - x_p) / width, 2)); };
+  const auto integral = [&](double a, double b) {
+    a = std::clamp(a, x_p - gaussian_cut * width, x_p + gaussian_cut * width);
+    b = std::clamp(b, x_p - gaussian_cut * width, x_p + gaussian_cut * width);
+    const int n = 2000;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+      const double l = a + (b - a) * i / n, r = a + (b - a) * (i + 1) / n;
+      sum += (density(l) + 4 * density(0.5 * (l + r)) + density(r)) * (b - a) / n / 6;
+    }
+    return sum;
+  };
+  const double all = integral(0, 20);
+  const auto result = shares(grid, averaging(Kernel::gaussian, width), {x_p, 0.5, 0.5});
+  for (int cell = 0; cell < 20; ++cell) {
+    const auto found = result.find(cell);
+    EXPECT_NEAR(found == result.end() ? 0 : found->second, integral(cell, cell + 1) / all, 1e-9) << cell;
+  }
+}
+
+TEST(KernelWeights, GaussianSecondMomentIsThatOfTheCutGaussian) {
+  // On cells much smaller than the width, sum w (x_c - x_p)^2 = variance of the cut Gaussian + h^2/12, and
+  // the cut Gaussian's variance is width^2 (1 - 2 c phi(c) / erf(c/sqrt 2)).
+  const BulkGrid grid({0, 0, 0}, {1, 1, 1}, {400, 1, 1});
+  const double width = 0.05, c = gaussian_cut;
+  const double phi = std::exp(-0.5 * c * c) / std::sqrt(2 * std::acos(-1.0));
+  const double variance = width * width * (1 - 2 * c * phi / std::erf(c / std::sqrt(2.0)));
+  const Vec3 position{0.50125, 0.5, 0.5};
+  double mean = 0, second = 0;
+  for (const auto& [cell, share] : shares(grid, averaging(Kernel::gaussian, width), position)) {
+    const double d = grid.cell_centre(grid.ijk(cell)).x - position.x;
+    mean += share * d;
+    second += share * d * d;
+  }
+  EXPECT_NEAR(mean, 0, 1e-12);
+  EXPECT_NEAR(second / variance, 1, 3e-3);  // cells of 0.05 widths
+  EXPECT_NEAR(second / (width * width), 1, 0.03);
+}
+
+TEST(KernelWeights, LinearAndGaussianAreContinuousInThePositionOfTheParticle) {
+  const BulkGrid grid({0, 0, 0}, {1, 1, 1}, {10, 10, 10}, {false, false, true});
+  const Vec3 from{-0.05, 0.93, -0.21}, path{1.13, -0.77, 1.37};  // through walls, faces and the periodic end
+  for (const double width : {0.0, 0.027, 0.2})
+    for (const Kernel kernel : {Kernel::linear, Kernel::gaussian}) {
+      double largest = 0;
+      const double step = 1e-3;
+      auto before = shares(grid, averaging(kernel, width), from);
+      for (double t = step; t < 1; t += step) {
+        auto now = shares(grid, averaging(kernel, width), from + t * path);
+        for (const auto& [cell, share] : now) largest = std::max(largest, std::abs(share - before[cell]));
+        for (const auto& [cell, share] : before) largest = std::max(largest, std::abs(share - now[cell]));
+        before = now;
+      }
+      // Along one axis a share rises at most as fast as the kernel is high: 1/h for the hat, the peak of the
+      // Gaussian for the other.
+      const double sigma = width > 0 ? width : 0.05;
+      const double peak = kernel == Kernel::linear ? 10 : 0.4 / sigma;
+      EXPECT_LE(largest, step * (1.13 + 0.77 + 1.37) * peak)
+          << "kernel " << int(kernel) << " width " << width;
+      // And nothing jumps where a cell is entered or left.
+      double jump = 0;
+      for (double x = 0; x <= 1.0001; x += 0.05)
+        for (const double cut : {0.0, gaussian_cut * sigma}) {
+          auto low = shares(grid, averaging(kernel, width), {x - cut - 1e-11, 0.31, 0.5});
+          auto high = shares(grid, averaging(kernel, width), {x - cut + 1e-11, 0.31, 0.5});
+          for (const auto& [cell, share] : low) jump = std::max(jump, std::abs(share - high[cell]));
+          for (const auto& [cell, share] : high) jump = std::max(jump, std::abs(share - low[cell]));
+        }
+      EXPECT_LT(jump, 1e-8);
+    }
+}
+
+TEST(KernelWeights, AnEvenSpreadUpToTheWallStaysEven) {
+  // Particles at equal spacing d from wall to wall (the first at d/2): every cell must get the same.
+  const BulkGrid grid({0, 0, 0}, {1, 1, 1}, {5, 1, 1});
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({(i + 0.5) / 1000, 0.5, 0.5});
+  const std::vector<double> ones(points.size(), 1.0);
+  for (const Kernel kernel : all_kernels) {
+    const KernelWeights weights = kernel_weights(grid, averaging(kernel, 0.13), points);
+    std::vector<double> sums(weights.cells.size());
+    deposit(weights, ones.data(), 1, sums.data());
+    ASSERT_EQ(sums.size(), 5u);
+    for (const double sum : sums) EXPECT_NEAR(sum, 200, 0.01) << "kernel " << int(kernel);
+  }
+}
+
+TEST(KernelWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
+  const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30}, {true, false, false});
+  std::mt19937 random(11);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  const std::vector<Vec3> points = awkward_points(grid);
+  const int width = 5;
+  for (const Kernel kernel : all_kernels) {
+    const KernelWeights weights = kernel_weights(grid, averaging(kernel), points);
+    std::vector<double> a(points.size() * width), b(weights.cells.size() * width), deposited(b.size()),
+        sampled(a.size());
+    for (double& value : a) value = uniform(random);
+    for (double& value : b) value = uniform(random);
+    deposit(weights, a.data(), width, deposited.data());
+    sample(weights, b.data(), width, sampled.data());
+    for (int m = 0; m < width; ++m) {
+      double given = 0, received = 0, left = 0, right = 0, size = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        given += a[i * width + m];
+        size += std::abs(a[i * width + m]);
+        right += a[i * width + m] * sampled[i * width + m];
+      }
+      for (std::size_t c = 0; c < weights.cells.size(); ++c) {
+        received += deposited[c * width + m];
+        left += deposited[c * width + m] * b[c * width + m];
+      }
+      EXPECT_NEAR(received, given, 1e-14 * size);
+      EXPECT_NEAR(left, right, 1e-14 * size);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace demvof
