@@ -77,11 +77,6 @@ void Checks::times() const {
           fmt::format("{} s is {:.9g} windows of {} s; give a whole number of windows, e.g. {:.12g}",
                       end_time, windows, window, std::max(1.0, std::round(windows)) * window));
   }
-  if (sound({"output.pictures", "coupling.end_time"}))
-    for (const double time : c.output.pictures)
-      if (time > c.coupling.end_time)
-        add("output.pictures",
-            fmt::format("{} s is after coupling.end_time, {} s", time, c.coupling.end_time));
 }
 
 void Checks::scene() const {

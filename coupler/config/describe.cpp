@@ -32,8 +32,12 @@ Json schema_of_one(const ValueRule& rule) {
       schema["type"] = "boolean";
       break;
   }
-  if (std::isfinite(rule.lowest)) schema[rule.lowest_excluded ? "exclusiveMinimum" : "minimum"] = rule.lowest;
-  if (std::isfinite(rule.highest)) schema["maximum"] = rule.highest;
+  const auto bound = [&rule](double value) {
+    return rule.form == Form::integer ? Json(static_cast<long>(value)) : Json(value);
+  };
+  if (std::isfinite(rule.lowest))
+    schema[rule.lowest_excluded ? "exclusiveMinimum" : "minimum"] = bound(rule.lowest);
+  if (std::isfinite(rule.highest)) schema["maximum"] = bound(rule.highest);
   return schema;
 }
 

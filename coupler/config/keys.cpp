@@ -234,7 +234,9 @@ std::vector<Key> make_keys() {
       key("output.history", list_of(any, history_quantity()),
           "Quantities in history.csv; an empty list: all that the scene has.", DEMVOF_AT(output.history)),
       key("output.pictures", list_of(any, at_least(0, number("s"))),
-          "Times shown in report.html; an empty list: begin, four between, end.", DEMVOF_AT(output.pictures)),
+          "Times shown in report.html; an empty list: begin, four between, end; times after the end are left "
+          "out.",
+          DEMVOF_AT(output.pictures)),
   };
 }
 

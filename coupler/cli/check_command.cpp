@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include "coupler/cli/commands.hpp"
+#include "coupler/cli/launch.hpp"
+#include "coupler/cli/prepare.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "demvof-check-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary folder " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+int check_command(const CaseOptions& options) {
+  const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  fmt::print("{}: every key is in order (configuration {}).\n", options.case_file,
+             configuration_hash(parameters));
+
+  const TemporaryFolder temporary;
+  const RunFolder folder(parameters, temporary.path() / "run");
+  std::vector<std::string> arguments = {"--check", "--out", folder.path().string()};
+  for (const std::string& assignment : options.overrides)
+    arguments.insert(arguments.end(), {"--set", assignment});
+  const LaunchCommand command = launch_command(parameters, arguments);
+  prepare_case(parameters, folder, false, [](const std::string& what) {
+    fmt::print("{}\n", what);
+    std::fflush(stdout);
+  });
+
+  Watch watch;
+  watch.on_line = [](const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  watch.on_tick = [] {};
+  const int code = launch(command, watch);
+  fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");
+  return code;
+}
+
+}  // namespace demvof

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/cli/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+namespace demvof {
+namespace {
+
+/// After fork, in the child, until the new program takes over.
+[[noreturn]] void become(char* const* arguments, const ChildOptions& options, int error_pipe) {
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  if (options.output >= 0) {
+    dup2(options.output, STDOUT_FILENO);
+    dup2(options.output, STDERR_FILENO);
+  }
+  if (options.own_group) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+  }
+  for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 0);
+  if (options.directory.empty() || chdir(options.directory.c_str()) == 0) execvp(arguments[0], arguments);
+  const int error = errno;
+  if (write(error_pipe, &error, sizeof error) < 0) _exit(126);
+  _exit(127);
+}
+
+int exit_code(int status) {
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildOptions& options) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+
+  int error_pipe[2];
+  if (pipe2(error_pipe, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+  id_ = fork();
+  if (id_ == 0) become(arguments.data(), options, error_pipe[1]);
+  close(error_pipe[1]);
+  int error = id_ < 0 ? errno : 0;
+  // The pipe closes without a word when the program takes over.
+  if (id_ > 0 && read(error_pipe[0], &error, sizeof error) > 0) wait();
+  close(error_pipe[0]);
+  if (error) throw std::runtime_error(fmt::format("cannot start {}: {}", command[0], std::strerror(error)));
+}
+
+ChildProcess::~ChildProcess() {
+  if (poll()) return;
+  send_signal(SIGTERM);
+  wait();
+}
+
+void ChildProcess::send_signal(int number) const {
+  if (!exit_code_) kill(id_, number);
+}
+
+std::optional<int> ChildProcess::poll() {
+  int status = 0;
+  if (!exit_code_ && waitpid(id_, &status, WNOHANG) == id_) exit_code_ = exit_code(status);
+  return exit_code_;
+}
+
+int ChildProcess::wait() {
+  int status = 0;
+  while (!exit_code_) {
+    if (waitpid(id_, &status, 0) == id_)
+      exit_code_ = exit_code(status);
+    else if (errno != EINTR)
+      throw std::runtime_error(fmt::format("cannot wait for a program: {}", std::strerror(errno)));
+  }
+  return *exit_code_;
+}
+
+std::string shell_line(const std::vector<std::string>& command) {
+  static const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  std::string line;
+  for (const std::string& word : command) {
+    if (!line.empty()) line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace demvof

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace demvof {
+
+struct ChildOptions {
+  std::filesystem::path directory;                 // to run in; empty: here
+  std::map<std::string, std::string> environment;  // set unless the user's environment has it
+  int output = -1;         // file descriptor for stdout and stderr; -1: this program's
+  bool own_group = false;  // Ctrl-C on the terminal does not reach it; it ends when this program dies
+};
+
+/// One program started by this one. It reads nothing from the terminal.
+class ChildProcess {
+ public:
+  /// command: program (looked up in PATH) and arguments. Throws std::runtime_error when it cannot start.
+  ChildProcess(const std::vector<std::string>& command, const ChildOptions& options = {});
+  /// Terminates the program if it still runs, and waits for it.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  void send_signal(int number) const;
+  /// The exit code once it has ended (128 + number for a signal, as a shell says it).
+  std::optional<int> poll();
+  int wait();
+
+ private:
+  pid_t id_ = -1;
+  std::optional<int> exit_code_;
+};
+
+/// The command as one line for a POSIX shell.
+std::string shell_line(const std::vector<std::string>& command);
+
+}  // namespace demvof

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace demvof {
+
+/// What the subcommands on a case file share.
+struct CaseOptions {
+  std::string case_file;
+  std::vector<std::string> overrides;  // --set
+  std::string out;                     // --out; empty: run, beside the case file
+  bool force = false;
+};
+
+struct RunOptions {
+  std::string fluid_ranks, particle_ranks;  // empty: as the case file says
+  bool print_command = false, quiet = false;
+};
+
+// The subcommands. Each returns the exit code; InputError is code 2, any other exception code 3.
+int prepare_command(const CaseOptions& options);
+int run_command(CaseOptions options, const RunOptions& run);
+int check_command(const CaseOptions& options);
+int report_command(const std::vector<std::string>& folders);
+
+}  // namespace demvof

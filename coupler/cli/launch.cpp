@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/cli/launch.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+
+#include "coupler/cli/child_process.hpp"
+#include "coupler/cli/prepare.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sibling(const std::string& program) {
+  const fs::path path = fs::read_symlink("/proc/self/exe").parent_path() / program;
+  if (!fs::exists(path))
+    throw std::runtime_error(
+        fmt::format("{} is not there: build and install {} beside demvof", path.string(), program));
+  return path.string();
+}
+
+volatile std::sig_atomic_t stop_requests = 0;
+void on_stop_signal(int) {
+  stop_requests = stop_requests + 1;
+}
+
+/// Counts stop signals while it lives.
+class StopSignals {
+ public:
+  StopSignals() {
+    stop_requests = 0;
+    struct sigaction action = {};
+    action.sa_handler = on_stop_signal;
+    for (std::size_t i = 0; i < count; ++i) sigaction(numbers[i], &action, &before_[i]);
+  }
+  ~StopSignals() {
+    for (std::size_t i = 0; i < count; ++i) sigaction(numbers[i], &before_[i], nullptr);
+  }
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  static constexpr int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+  static constexpr std::size_t count = 3;
+  struct sigaction before_[count] = {};
+};
+
+/// Lines out of a stream of bytes. What mpirun says in blocks between rows of dashes is set aside: the
+/// programs' own messages say it better, and it is shown only when there are none.
+class Lines {
+ public:
+  explicit Lines(const std::function<void(const std::string&)>& on_line) : on_line_(on_line) {}
+
+  void add(const char* bytes, std::size_t count) {
+    rest_.append(bytes, count);
+    for (std::size_t end; (end = rest_.find('\n')) != std::string::npos; rest_.erase(0, end + 1))
+      line(rest_.substr(0, end));
+  }
+  void finish(bool failed) {
+    if (!rest_.empty()) line(rest_);
+    if (failed && !said_something_)
+      for (const std::string& text : chatter_) on_line_(text);
+  }
+
+ private:
+  void line(const std::string& text) {
+    const bool rule = text.size() >= 60 && text.find_first_not_of('-') == std::string::npos;
+    if (rule) {
+      in_block_ = !in_block_;
+    } else if (in_block_) {
+      chatter_.push_back(text);
+    } else {
+      said_something_ = said_something_ || !text.empty();
+      on_line_(text);
+    }
+  }
+  std::function<void(const std::string&)> on_line_;
+  std::string rest_;
+  std::vector<std::string> chatter_;
+  bool in_block_ = false, said_something_ = false;
+};
+
+/// Passes on what is in the pipe now, waiting a quarter of a second at most.
+void read_some(int pipe, Lines& lines, int milliseconds) {
+  pollfd wanted = {pipe, POLLIN, 0};
+  if (poll(&wanted, 1, milliseconds) <= 0) return;
+  char buffer[4096];
+  ssize_t count;
+  while ((count = read(pipe, buffer, sizeof buffer)) > 0) lines.add(buffer, static_cast<std::size_t>(count));
+  // At the end of the stream poll returns at once: do not spin until the program is gone.
+  if (count == 0) usleep(static_cast<useconds_t>(milliseconds) * 1000);
+}
+
+}  // namespace
+
+LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments) {
+  LaunchCommand command;
+  command.environment = foam_environment();
+  command.pair = parameters.particles.has_value();
+  const auto add_program = [&](const std::string& program) {
+    command.words.push_back(sibling(program));
+    command.words.push_back(parameters.file);
+    command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  };
+  if (!command.pair && parameters.fluid.ranks == 1) {
+    add_program("foam_side");
+    return command;
+  }
+  if (geteuid() == 0)
+    command.environment.insert({{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
+  command.words = {"mpirun",
+                   // More ranks than cores are allowed (Open MPI then yields the core while it waits), and
+                   // ranks are not pinned: two runs on one machine would be pinned to the same cores.
+                   "--oversubscribe", "--bind-to", "none",
+                   // Time for the surviving side to write what it has before mpirun kills it, s.
+                   "--mca", "odls_base_sigkill_timeout", "20",
+                   // Containers often forbid to read another process's memory.
+                   "--mca", "btl_vader_single_copy_mechanism", "none", "-np",
+                   std::to_string(parameters.fluid.ranks)};
+  add_program("foam_side");
+  if (command.pair) {
+    command.words.insert(command.words.end(), {":", "-np", std::to_string(parameters.particles->ranks)});
+    add_program("dem_side");
+  }
+  return command;
+}
+
+std::string shell_line(const LaunchCommand& command) {
+  std::string line;
+  for (const auto& [name, value] : command.environment)
+    if (!getenv(name.c_str())) line += fmt::format("{}={} ", name, shell_line({value}));
+  return line + shell_line(command.words);
+}
+
+int run_exit_code(int code, bool pair, bool ended_by_user) {
+  if (code == 0 || code == 2 || code == 3 || code == 4) return code;
+  // A side killed by a signal is a lost partner for the other.
+  return code > 128 && pair && !ended_by_user ? 4 : 3;
+}
+
+int launch(const LaunchCommand& command, const Watch& watch) {
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
+  fcntl(pipe_ends[0], F_SETFL, O_NONBLOCK);
+  ChildOptions options;
+  options.environment = command.environment;
+  options.output = pipe_ends[1];
+  options.own_group = true;
+
+  StopSignals signals;
+  ChildProcess programs(command.words, options);
+  close(pipe_ends[1]);
+  Lines lines(watch.on_line);
+  int passed_on = 0;
+  std::optional<int> code;
+  while (!(code = programs.poll())) {
+    read_some(pipe_ends[0], lines, 250);
+    if (stop_requests > passed_on) {
+      programs.send_signal(passed_on == 0 ? SIGUSR1 : SIGTERM);
+      watch.on_line(passed_on == 0 ? "stopping at the end of the window; once more to end at once"
+                                   : "ending at once");
+      ++passed_on;
+    }
+    watch.on_tick();
+  }
+  read_some(pipe_ends[0], lines, 0);
+  close(pipe_ends[0]);
+  lines.finish(*code != 0);
+  return run_exit_code(*code, command.pair, passed_on > 0);
+}
+
+}  // namespace demvof

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+
+namespace demvof {
+
+/// How the programs of a run are started.
+struct LaunchCommand {
+  std::vector<std::string> words;
+  std::map<std::string, std::string> environment;  // set unless the user's environment has it
+  bool pair = false;                               // two programs in one mpirun
+};
+
+/// mpirun with foam_side and, with particles, dem_side, both from the folder of this program; one
+/// foam_side rank alone is started without mpirun. arguments: given to both, after the case file.
+/// Throws std::runtime_error when a program is not there.
+LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments);
+
+/// As a user would type it, environment included.
+std::string shell_line(const LaunchCommand& command);
+
+struct Watch {
+  std::function<void(const std::string&)> on_line;  // each line that the programs print
+  std::function<void()> on_tick;                    // about four times a second
+};
+
+/// Starts the programs and waits for their end. The first Ctrl-C, SIGTERM or hang-up of the terminal
+/// asks them to stop at the end of the window, the second ends them. Returns 0, 2, 3 or 4 (README).
+int launch(const LaunchCommand& command, const Watch& watch);
+
+/// The run's exit code from that of mpirun, or of a program alone.
+int run_exit_code(int code, bool pair, bool ended_by_user);
+
+}  // namespace demvof

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "coupler/cli/commands.hpp"
+#include "coupler/cli/manual.hpp"
+#include "coupler/config/describe.hpp"
+#include "coupler/config/nearest.hpp"
+#include "coupler/config/read_case.hpp"
+#include "coupler/output/machine.hpp"
+
+namespace {
+
+using namespace demvof;
+
+/// The command line, and what to do about it.
+class CommandLine {
+ public:
+  CommandLine() : app_("three-phase flows: OpenFOAM and LIGGGHTS coupled", "demvof") {
+    app_.formatter(std::make_shared<ManualPage>());
+    app_.footer(main_manual);
+    app_.require_subcommand(1);
+    group_options(app_);
+    app_.add_flag_callback(
+        "--version",
+        [] {
+          fmt::print("demvof {}\n", version());
+          throw CLI::Success();
+        },
+        "Print the version");
+    add_check();
+    add_prepare();
+    add_run();
+    add_report();
+    add_text("schema", "print the JSON Schema of the case file", schema_manual, case_file_schema);
+    add_text("reference", "print the reference of the case file", reference_manual, case_file_reference);
+  }
+
+  /// The exit code.
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& page) {
+      return app_.exit(page);
+    } catch (const CLI::ParseError& error) {
+      throw InputError(
+          fmt::format("demvof: {} (see demvof --help)", unknown_command(argc, argv, error.what())));
+    }
+    return action_();
+  }
+
+ private:
+  /// CLI11 does not name a mistyped command; other mistakes keep its words.
+  std::string unknown_command(int argc, char** argv, const std::string& otherwise) const {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app_.get_subcommands({})) names.push_back(command->get_name());
+    const std::string first = argc > 1 ? argv[1] : "";
+    if (first.empty() || first[0] == '-' || std::count(names.begin(), names.end(), first)) return otherwise;
+    return fmt::format("{} is no command{}", first, did_you_mean(first, names));
+  }
+  static void group_options(CLI::App& app) {
+    app.option_defaults()->group("OPTIONS");
+    app.set_help_flag("--help,-h", "Print this page");
+  }
+  CLI::App* add(const std::string& name, const std::string& purpose, const char* manual,
+                std::function<int()> action) {
+    CLI::App* command = app_.add_subcommand(name, purpose);
+    command->footer(manual);
+    command->group("COMMANDS");
+    group_options(*command);
+    command->final_callback([this, action = std::move(action)] { action_ = action; });
+    return command;
+  }
+  void add_case(CLI::App* command) {
+    command->add_option("CASE", case_.case_file, "The case file (YAML)")->required()->type_name("");
+    command
+        ->add_option("--set", case_.overrides,
+                     "Set a key of the case file, e.g. coupling.window=1e-4; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+  }
+  void add_out(CLI::App* command) {
+    command
+        ->add_option("--out", case_.out, "Folder for everything written; default: run, beside the case file")
+        ->type_name("DIR");
+    command->add_flag("--force", case_.force, "Replace what an earlier run left in DIR");
+  }
+
+  void add_check() {
+    add_case(add("check", "check a case on both sides without running it", check_manual,
+                 [this] { return check_command(case_); }));
+  }
+  void add_prepare() {
+    CLI::App* command = add("prepare", "make the mesh and fields of the fluid side", prepare_manual,
+                            [this] { return prepare_command(case_); });
+    add_case(command);
+    add_out(command);
+  }
+  void add_run() {
+    CLI::App* command = add("run", "run a case", run_manual, [this] { return run_command(case_, run_); });
+    add_case(command);
+    add_out(command);
+    command->add_option("--fluid-ranks", run_.fluid_ranks, "MPI ranks of foam_side; default: fluid.ranks")
+        ->type_name("N");
+    command
+        ->add_option("--particle-ranks", run_.particle_ranks,
+                     "MPI ranks of dem_side; default: particles.ranks")
+        ->type_name("N");
+    command->add_flag("--print-command", run_.print_command, "Print how the programs are started, and stop");
+    command->add_flag("--quiet", run_.quiet, "Print errors only");
+  }
+  void add_report() {
+    CLI::App* command = add("report", "make pictures and tables of runs", report_manual,
+                            [this] { return report_command(folders_); });
+    command->add_option("DIR", folders_, "Folders of runs")->required()->type_name("");
+  }
+  void add_text(const std::string& name, const std::string& purpose, const char* manual,
+                std::string (*text)()) {
+    add(name, purpose, manual, [text] {
+      fmt::print("{}", text());
+      return 0;
+    });
+  }
+
+  CLI::App app_;
+  CaseOptions case_;
+  RunOptions run_;
+  std::vector<std::string> folders_;
+  std::function<int()> action_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return CommandLine().run(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "demvof: {}\n", error.what());
+    return 3;
+  }
+}

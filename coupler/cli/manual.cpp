@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/cli/manual.hpp"
+
+#include <CLI/App.hpp>
+#include <sstream>
+
+namespace demvof {
+
+ManualPage::ManualPage() {
+  column_width(34);
+  label("Positionals", "ARGUMENTS");
+  label("REQUIRED", "");
+}
+
+std::string ManualPage::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+  if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+  const std::string full_name = name.empty() ? app->get_name() : name;
+  std::ostringstream page;
+  page << "NAME\n    " << full_name << " - " << app->get_description() << "\n\nSYNOPSIS\n    " << full_name;
+  if (!app->get_subcommands({}).empty()) page << " COMMAND";
+  for (const CLI::Option* option : app->get_options([](const CLI::Option* o) { return o->get_positional(); }))
+    page << ' ' << option->get_name(true) << (option->get_expected_max() > 1 ? "..." : "");
+  page << " [OPTIONS]\n" << make_positionals(app);
+  for (const std::string& group : app->get_groups()) {
+    const auto options = app->get_options(
+        [&group](const CLI::Option* o) { return o->get_group() == group && o->nonpositional(); });
+    if (!group.empty() && !options.empty()) page << make_group(group, false, options);
+  }
+  const auto commands = app->get_subcommands({});
+  if (!commands.empty()) page << "\nCOMMANDS\n";
+  for (const CLI::App* command : commands) page << "  " << make_subcommand(command);
+  page << '\n' << app->get_footer();
+  return page.str();
+}
+
+std::string ManualPage::make_group(std::string group, bool is_positional,
+                                   std::vector<const CLI::Option*> options) const {
+  std::ostringstream text;
+  text << '\n' << group << '\n';
+  for (const CLI::Option* option : options) text << "  " << make_option(option, is_positional);
+  return text.str();
+}
+
+const char* const main_manual = R"(DESCRIPTION
+    demvof couples OpenFOAM (two fluids, volume of fluid) with LIGGGHTS (particles). One YAML case file
+    describes a run; `demvof COMMAND --help` tells about each command, docs/case_file.md about each key.
+
+EXIT STATUS
+    0   done
+    2   the input is wrong; the message names file, line, key, value and what is allowed
+    3   the run failed or was interrupted; the message names side, stage and time
+    4   one side lost the other
+
+EXAMPLES
+    demvof check case.yaml
+    demvof run case.yaml --out runs/a --set coupling.window=1e-4
+    demvof report runs/a
+)";
+
+const char* const check_manual = R"(DESCRIPTION
+    Checks every key of the case file, then starts both programs on a copy of the case in a temporary
+    folder, lets them read their cases and agree, and stops before the first time step. Prints what the
+    run would have switched on, what it leaves out and why, and the numbers it found: time steps per
+    window, cells, particles. The case's folder is left as it is.
+
+EXIT STATUS
+    0 the case is ready to run, 2 the input is wrong, 3 a program failed, 4 one side lost the other
+
+EXAMPLES
+    demvof check case.yaml
+    demvof check case.yaml --set coupling.averaging.kernel=linear
+)";
+
+const char* const prepare_manual = R"(DESCRIPTION
+    Copies the OpenFOAM case (constant, system, and 0.orig or 0) to DIR/fluid, runs the commands of
+    fluid.prepare there and decomposes the mesh for several fluid ranks. The original is left as it is.
+    `demvof run` does this by itself; use it to look at mesh and fields before a run, or before
+    starting the two programs by hand.
+
+FILES
+    DIR/fluid           the prepared case
+    DIR/prepare.log     what the commands printed
+    DIR/prepared.json   what it was prepared from
+
+EXIT STATUS
+    0 done, 2 the input is wrong or a command failed
+
+EXAMPLES
+    demvof prepare case.yaml --out runs/a
+)";
+
+const char* const run_manual = R"(DESCRIPTION
+    Prepares the fluid case if that is not done yet, starts foam_side and dem_side in one mpirun, shows
+    how far they are, and prints a table of the results. Standard output gets a progress bar on a
+    terminal, and a line per tenth of the run elsewhere. Without particles foam_side runs alone.
+
+    Ctrl-C (or SIGTERM) stops the run at the end of the window, with everything written; a second one
+    ends it at once.
+
+FILES
+    DIR/results.json    everything about the run
+    DIR/history.csv     recorded quantities against time
+    DIR/fluid           OpenFOAM time folders
+    DIR/particles, DIR/bulk   series for ParaView
+    DIR/fluid.log, DIR/particles.log   what OpenFOAM and LIGGGHTS printed
+
+ENVIRONMENT
+    WM_PROJECT_DIR      of a sourced OpenFOAM environment is respected
+
+EXIT STATUS
+    0 done, 2 the input is wrong, 3 failed or interrupted, 4 one side lost the other
+
+EXAMPLES
+    demvof run case.yaml
+    demvof run case.yaml --fluid-ranks 2 --set coupling.window=1e-4 --out runs/small_window
+    demvof run case.yaml --print-command
+)";
+
+const char* const report_manual = R"(DESCRIPTION
+    Writes report.html (pictures and tables, one self-contained file) into the run's folder. Several
+    folders are compared in one report, in the first folder.
+
+EXIT STATUS
+    0 done, 2 a folder is not that of a run, 3 the report could not be made
+
+EXAMPLES
+    demvof report runs/a
+    demvof report runs/single_scale runs/multiscale
+)";
+
+const char* const schema_manual = R"(DESCRIPTION
+    Prints the JSON Schema of the case file; editors that know it complete and check case files.
+
+EXAMPLES
+    demvof schema > docs/case_file.schema.json
+)";
+
+const char* const reference_manual = R"(DESCRIPTION
+    Prints the reference of the case file in Markdown: every key with its values, default and meaning.
+
+EXAMPLES
+    demvof reference > docs/case_file.md
+)";
+
+}  // namespace demvof

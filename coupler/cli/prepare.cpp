@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/cli/prepare.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <stdexcept>
+
+#include "coupler/cli/child_process.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+void copy_case(const fs::path& original, const fs::path& copy) {
+  const auto options = fs::copy_options::recursive;
+  for (const char* part : {"constant", "system"}) {
+    if (!fs::is_directory(original / part))
+      throw InputError(fmt::format("{} is no OpenFOAM case: there is no folder {}", original.string(), part));
+    fs::create_directories(copy / part);
+    fs::copy(original / part, copy / part, options);
+  }
+  // 0.orig holds the fields as the user wrote them, 0 those that an earlier setFields left.
+  for (const char* fields : {"0.orig", "0"})
+    if (fs::is_directory(original / fields)) return fs::copy(original / fields, copy / "0", options);
+  throw InputError(fmt::format("{} is no OpenFOAM case: there is neither 0 nor 0.orig", original.string()));
+}
+
+std::string last_lines(const fs::path& log, std::size_t count) {
+  std::ifstream stream(log);
+  std::deque<std::string> lines;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty()) continue;
+    lines.push_back(line);
+    if (lines.size() > count) lines.pop_front();
+  }
+  std::string text;
+  for (const std::string& line : lines) text += "\n    " + line;
+  return text;
+}
+
+/// Runs one command in the copied case, its output at the end of the log.
+void run_logged(const std::string& command, const RunFolder& folder) {
+  const fs::path log = folder.prepare_log();
+  std::ofstream(log, std::ios::app) << "\n$ " << command << std::endl;
+  const int file = open(log.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file < 0)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", log.string(), std::strerror(errno)));
+  ChildOptions options;
+  options.directory = folder.fluid();
+  options.environment = foam_environment();
+  options.output = file;
+  const int code = ChildProcess({"/bin/sh", "-c", command}, options).wait();
+  close(file);
+  if (code != 0)
+    throw InputError(fmt::format("{} failed (exit code {}) in {}; the end of {}:{}", command, code,
+                                 folder.fluid().string(), log.string(), last_lines(log, 12)));
+}
+
+void decompose(int ranks, const RunFolder& folder) {
+  const fs::path dictionary = folder.fluid() / "system" / "decomposeParDict";
+  if (!fs::exists(dictionary))
+    std::ofstream(dictionary) << "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n"
+                                 "    object decomposeParDict;\n}\nnumberOfSubdomains 1;\nmethod scotch;\n";
+  run_logged(fmt::format("foamDictionary -entry numberOfSubdomains -set {} system/decomposeParDict", ranks),
+             folder);
+  run_logged("decomposePar -force", folder);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> foam_environment() {
+  return {{"WM_PROJECT_DIR", DEMVOF_FOAM_PROJECT_DIR}};
+}
+
+void prepare_case(const CaseParameters& parameters, const RunFolder& folder, bool force,
+                  const std::function<void(const std::string&)>& say) {
+  folder.clear(force);
+  std::ofstream(folder.prepare_log()) << "demvof prepare " << parameters.file << std::endl;
+  copy_case(beside_case_file(parameters, parameters.fluid.case_folder), folder.fluid());
+  for (const std::string& command : parameters.fluid.prepare) {
+    say("preparing the fluid case: " + command);
+    run_logged(command, folder);
+  }
+  if (parameters.fluid.ranks > 1) {
+    say(fmt::format("preparing the fluid case: decomposePar for {} ranks", parameters.fluid.ranks));
+    decompose(parameters.fluid.ranks, folder);
+  }
+  folder.mark_ready();
+}
+
+}  // namespace demvof

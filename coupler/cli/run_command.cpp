@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include "coupler/cli/commands.hpp"
+#include "coupler/cli/launch.hpp"
+#include "coupler/cli/prepare.hpp"
+#include "coupler/cli/progress_display.hpp"
+#include "coupler/cli/summary.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+std::vector<std::string> program_arguments(const CaseOptions& options, const RunFolder& folder) {
+  std::vector<std::string> arguments = {"--out", folder.path().string()};
+  for (const std::string& assignment : options.overrides)
+    arguments.insert(arguments.end(), {"--set", assignment});
+  return arguments;
+}
+
+/// mpirun's word and results.json have to agree before a run counts as done.
+int confirmed(int code, const nlohmann::ordered_json& results) {
+  const std::string status = results.is_object() ? results.value("status", "") : "";
+  return code == 0 && status != "completed" ? 3 : code;
+}
+
+void print_end(int code, const nlohmann::ordered_json& results, const RunFolder& folder) {
+  if (results.is_object())
+    fmt::print("\n{}", run_summary(results));
+  else
+    fmt::print("\nThe programs left no {}.\n", (folder.path() / "results.json").string());
+  if (code != 0 && !failure_text(results).empty()) fmt::print("failed: {}\n", failure_text(results));
+  fmt::print("\nOutputs:\n{}", output_list(folder.path()));
+}
+
+}  // namespace
+
+int run_command(CaseOptions options, const RunOptions& run) {
+  if (!run.fluid_ranks.empty()) options.overrides.push_back("fluid.ranks=" + run.fluid_ranks);
+  if (!run.particle_ranks.empty()) options.overrides.push_back("particles.ranks=" + run.particle_ranks);
+  const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  const RunFolder folder(parameters, options.out);
+  const LaunchCommand command = launch_command(parameters, program_arguments(options, folder));
+  if (run.print_command) {
+    fmt::print("{}\n", shell_line(command));
+    return 0;
+  }
+
+  if (!folder.ready())
+    prepare_case(parameters, folder, options.force, [&](const std::string& what) {
+      if (!run.quiet) fmt::print("{}\n", what);
+    });
+
+  ProgressDisplay display(folder.path() / "progress.json", suitable_display(run.quiet));
+  Watch watch;
+  watch.on_line = [&](const std::string& line) { display.print(line); };
+  watch.on_tick = [&] { display.update(); };
+  const int launched = launch(command, watch);
+  display.finish();
+
+  const nlohmann::ordered_json results = read_results(folder.path());
+  const int code = confirmed(launched, results);
+  if (!run.quiet || code != 0) print_end(code, results, folder);
+  return code;
+}
+
+}  // namespace demvof

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "coupler/config/parameters.hpp"
+
+namespace demvof {
+
+/// The folder of one run: what is in it already, and what may be done to it.
+class RunFolder {
+ public:
+  /// path: --out, or empty for `run` beside the case file.
+  RunFolder(const CaseParameters& parameters, const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path fluid() const { return path_ / "fluid"; }
+  std::filesystem::path prepare_log() const { return path_ / "prepare.log"; }
+
+  /// Holds the prepared fluid case of these parameters, made after the last change of the original,
+  /// and nothing of a run.
+  bool ready() const;
+  /// Makes the folder, or empties it of an earlier run. Throws InputError rather than lose data: when
+  /// it holds something else, when it is where the case itself lives, or when it holds results or another
+  /// preparation and force is false.
+  void clear(bool force) const;
+  /// Marks the preparation as done.
+  void mark_ready() const;
+
+ private:
+  bool has_results() const;
+  std::string preparation() const;
+
+  const CaseParameters& parameters_;
+  std::filesystem::path path_;
+};
+
+}  // namespace demvof

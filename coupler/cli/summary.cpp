@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/cli/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "coupler/cli/progress_display.hpp"
+
+namespace demvof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A number of results.json; 0 where it says null or nothing.
+double number(const Json& json, const std::string& path) {
+  const Json::json_pointer pointer(path);
+  return json.contains(pointer) && json[pointer].is_number() ? json[pointer].get<double>() : 0;
+}
+long whole(const Json& json, const std::string& path) {
+  return static_cast<long>(number(json, path));
+}
+
+std::string wall_times(const Json& r) {
+  const double total = number(r, "/wall_seconds/total");
+  std::string text = clock_text(total) + " (h:m:s)";
+  for (const char* part : {"fluid", "particles", "exchange", "waiting"}) {
+    const double seconds = number(r, std::string("/wall_seconds/") + part);
+    text += fmt::format(", {} {:.1f} s", part, seconds);
+    if (total > 0) text += fmt::format(" ({:.0f} %)", 100 * seconds / total);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json read_results(const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "results.json");
+  const Json json = Json::parse(stream, nullptr, false);
+  return json.is_object() ? json : Json();
+}
+
+std::string run_summary(const Json& r) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  rows.emplace_back("status", r.value("status", "unknown"));
+  rows.emplace_back("wall time", wall_times(r));
+  rows.emplace_back("steps", fmt::format("{} windows, {} fluid, {} DEM", whole(r, "/steps/windows"),
+                                         whole(r, "/steps/fluid"), whole(r, "/steps/particles")));
+  rows.emplace_back("cells", fmt::format("{} fine at most, {} bulk, of these {} exchanged at most",
+                                         whole(r, "/cells/fine_max"), whole(r, "/cells/bulk"),
+                                         whole(r, "/cells/bulk_active_max")));
+  if (whole(r, "/particles/initial") + whole(r, "/particles/inserted") > 0)
+    rows.emplace_back("particles",
+                      fmt::format("{} at the start, {} inserted, {} left, {} lost",
+                                  whole(r, "/particles/initial"), whole(r, "/particles/inserted"),
+                                  whole(r, "/particles/left"), whole(r, "/particles/lost")));
+  rows.emplace_back(
+      "worst relative errors",
+      fmt::format("exchange {:.1e}, momentum {:.1e}, solid volume {:.1e}, liquid volume {:.1e}",
+                  number(r, "/conservation/exchange"), number(r, "/conservation/momentum"),
+                  number(r, "/conservation/solid_volume"), number(r, "/conservation/liquid_volume")));
+  for (const auto& [quantity, label] :
+       {std::pair{"liquid_front", "liquid front"}, {"solid_front", "solid front"}})
+    if (const std::string path = std::string("/quantities/") + quantity; r.contains(Json::json_pointer(path)))
+      rows.emplace_back(label, fmt::format("{:.4g} m", number(r, path)));
+  if (r.contains("warnings"))
+    for (const Json& warning : r["warnings"])
+      if (warning.is_string()) rows.emplace_back("warning", warning.get<std::string>());
+  std::string text;
+  for (const auto& [label, value] : rows) text += fmt::format("{:<22} {}\n", label, value);
+  return text;
+}
+
+std::string failure_text(const Json& results) {
+  if (!results.is_object() || !results.contains("failure") || !results["failure"].is_object()) return "";
+  const Json& failure = results["failure"];
+  return fmt::format("{} side, {}, t = {:.6g} s: {}", failure.value("side", "?"), failure.value("stage", "?"),
+                     number(failure, "/time"), failure.value("message", ""));
+}
+
+std::string output_list(const std::filesystem::path& folder) {
+  static const std::pair<const char*, const char*> outputs[] = {
+      {"results.json", "everything about the run in one file"},
+      {"history.csv", "recorded quantities against time"},
+      {"fluid", "OpenFOAM time folders"},
+      {"particles/particles.pvd", "particles, for ParaView"},
+      {"bulk/bulk.pvd", "bulk grid, for ParaView"},
+      {"fluid.log", "what OpenFOAM said"},
+      {"particles.log", "what LIGGGHTS said"},
+      {"report.html", "pictures and tables"}};
+  std::string text;
+  for (const auto& [name, meaning] : outputs)
+    if (std::filesystem::exists(folder / name))
+      text += fmt::format("  {:<34} {}\n", (folder / name).string(), meaning);
+  return text;
+}
+
+}  // namespace demvof
