@@ -11,8 +11,8 @@
 //   eps    void fraction: fluid volume / total volume, -     u    velocity between the particles, m/s
 //   alpha  liquid fraction of the fluid, -                   F    force of the particles, N/m3
 //
-// Source: Pozzetti & Peters, Int. J. Multiphase Flow 99 (2018), eqs. 7-24, 36. The stages below are
-// called in the order of the list; each has a file of its own.
+// Source: Pozzetti & Peters, Int. J. Multiphase Flow 99 (2018), eqs. 7-24, 36. The stages of a step
+// are called in the order in which they are declared; each has a file of its own.
 
 #include <memory>
 
@@ -21,14 +21,15 @@
 
 namespace demvof {
 
-/// Void fraction. What the flux has carried (eps) follows what the particles prescribe (goal): the
-/// pressure equation returns the difference, which is the error of its linear solver, at every step.
+/// Void fraction. eps is what the flux has carried: with it alpha stays bounded and liquid is kept to
+/// round-off, however loosely the pressure is solved. goal is what the particles prescribe; eps
+/// follows it to the tolerance of the pressure solver, because continuity asks for the difference back.
 struct Porosity {
   explicit Porosity(const Foam::fvMesh& mesh);
 
-  Foam::volScalarField eps;             // "voidFraction", -
-  Foam::volScalarField::Internal goal;  // prescribed void fraction at the present time, -
-  Foam::volScalarField::Internal rate;  // d(goal)/dt, constant in a window, 1/s
+  volScalarField eps;             // "voidFraction", -
+  volScalarField::Internal goal;  // prescribed void fraction at the present time, -
+  volScalarField::Internal rate;  // d(goal)/dt, constant in a window, 1/s
 };
 
 /// Force of the particles on the fluid, F = force + coefficient (reference - u), held over a window.
@@ -36,32 +37,34 @@ struct Porosity {
 struct ParticleSource {
   explicit ParticleSource(const Foam::fvMesh& mesh);
 
-  Foam::volVectorField::Internal force;             // N/m3
-  Foam::volScalarField::Internal coefficient;       // C, kg/(m3 s)
-  Foam::volVectorField::Internal reference;         // u_ref, m/s
-  Foam::volVectorField::Internal implicit_impulse;  // sum of dt C (u_ref - u) since begin_window, N s/m3
+  volVectorField::Internal force;             // N/m3
+  volScalarField::Internal coefficient;       // C, kg/(m3 s)
+  volVectorField::Internal reference;         // u_ref, m/s
+  volVectorField::Internal implicit_impulse;  // sum of dt C (u_ref - u) since begin_window, N s/m3
 };
 
 /// Time step: interFoam's rule, or, inside a window, equal parts of what is left of it.
 struct Clock {
-  bool windowed = false;        // begin_window was called
-  bool last_of_window = true;   // the present step ends the window
-  double window_start = 0, window_end = 0;  // s
-  double limit = 0;             // longest step the Courant numbers allow now, s
-  double courant = 0, interface_courant = 0;  // of the present step, from the flux at its start
-  double largest_courant = 0;   // over the run
+  bool windowed = false;         // begin_window was called
+  bool window_done = true;       // the present step ends the window
+  double window_end = 0;         // s
+  double limit = 0;              // longest step the Courant numbers allow in windows, s
+  double courant = 0;            // of the present step, from the flux at its start
+  double interface_courant = 0;  // the same in cells with 0.01 < alpha < 0.99
+  double largest_courant = 0;    // over the run
   long steps = 0;
 };
 
-/// What is fixed during one momentum prediction and its pressure corrections.
+/// What one momentum prediction leaves for its pressure corrections.
 struct PressureSystem {
   std::unique_ptr<Foam::fvVectorMatrix> momentum;
-  std::unique_ptr<Foam::volScalarField> mobility;        // [eps]/A, m3 s/kg
-  std::unique_ptr<Foam::surfaceScalarField> mobility_f;  // its face value (times eps at the face)
-  std::unique_ptr<Foam::surfaceScalarField> memory;      // flux carried over from the last step, m3/s
+  std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
+  std::unique_ptr<surfaceScalarField> eps_f;         // void fraction at faces; only with porosity
+  std::unique_ptr<surfaceScalarField> mobility_f;    // (eps/A)_f eps_f, m3 s/kg
+  std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
 };
 
-/// The fluid. Built by open_flow; members are listed in the order in which they depend on each other.
+/// The fluid. Built by open_flow; members stand in the order in which they depend on each other.
 struct Flow {
   Flow(const Foam::argList& args, const Scene& scene);
 
@@ -72,67 +75,80 @@ struct Flow {
   Foam::pimpleControl pimple;
   Clock clock;
 
-  Foam::volScalarField p_rgh;     // p - rho g.x, Pa
-  Foam::volVectorField U;         // between the particles, m/s
+  volScalarField p_rgh;                    // p - rho g.x, Pa
+  volVectorField U;                        // between the particles, m/s
   std::unique_ptr<Porosity> porosity;      // only with scene.porosity
   std::unique_ptr<ParticleSource> source;  // only with scene.particles
-  Foam::surfaceScalarField phi;   // eps_f u.S, m3/s: the flux that continuity and alpha use
+  surfaceScalarField phi;                  // eps_f u.S, m3/s: the one flux of continuity and alpha
   Foam::immiscibleIncompressibleTwoPhaseMixture mixture;
-  Foam::volScalarField& alpha;    // liquid fraction of the fluid, -
-  Foam::volScalarField rho;       // kg/m3
-  Foam::surfaceScalarField rho_phi;        // eps_f rho u.S, kg/s, from the same fluxes as alpha
+  volScalarField& alpha;       // liquid fraction of the fluid, -
+  volScalarField rho;          // kg/m3
+  surfaceScalarField rho_phi;  // eps_f rho u.S, kg/s, from the same flux as alpha
   Foam::autoPtr<Foam::incompressible::turbulenceModel> turbulence;
-  Foam::uniformDimensionedVectorField g;   // m/s2
-  Foam::dimensionedScalar gh_reference;    // g.x of the reference height, m2/s2
-  Foam::volScalarField gh;                 // g.x - gh_reference, m2/s2
-  Foam::surfaceScalarField ghf;
-  Foam::volScalarField p;         // total pressure, Pa; up to date after end_step
-  Foam::label p_reference_cell = 0;        // for closed boxes
-  Foam::scalar p_reference = 0;            // Pa
-  std::unique_ptr<Foam::surfaceVectorField> face_velocity;  // only on a changing mesh, m/s
-  Foam::tmp<Foam::surfaceScalarField> face_force;  // (surface tension - g.x grad rho).S, N/m; set with alpha
+  const Foam::uniformDimensionedVectorField& g;  // m/s2
+  dimensionedScalar gh_reference;                // g.x of the reference height, m2/s2
+  volScalarField gh;                             // g.x - gh_reference, m2/s2
+  surfaceScalarField ghf;
+  volScalarField p;                                   // total pressure, Pa; brought up to date by end_step
+  label p_reference_cell = 0;                         // closed boxes: where p has the value p_reference
+  scalar p_reference = 0;                             // Pa
+  std::unique_ptr<surfaceVectorField> face_velocity;  // only on a changing mesh, m/s
+  tmp<surfaceScalarField> face_force;                 // (sigma kappa grad alpha - g.x grad rho).S, N/m
   PressureSystem pressure_system;
 
-  double alpha_excess = 0;        // worst distance of alpha from [0, 1] over the run, -
+  double alpha_excess = 0;  // worst distance of alpha from [0, 1] over the run, -
 };
 
 // ---- set-up ------------------------------------------------------------------------------------
 
-/// Reads an interFoam case. From here on OpenFOAM's errors are exceptions (Foam::error).
-/// Throws for what this solver does not do: ddt other than Euler, MRF zones, fvOptions.
+/// Reads an interFoam case. From here on OpenFOAM's errors are exceptions (Foam::error). Throws for
+/// what this solver does not do: time schemes other than Euler, MRF zones, fvOptions, moving meshes.
 std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene);
 
-/// The void fraction at the start, a state and not a change. eps: one value per cell.
-void set_initial_porosity(Flow& flow, const Foam::scalarField& eps);
+/// The void fraction at the start: a state, not a change. eps: one value per cell.
+void set_initial_porosity(Flow& flow, const scalarField& eps);
 
 // ---- a window ----------------------------------------------------------------------------------
 
 /// From here to t_end (s) the clock divides what is left into equal steps; implicit_impulse starts at 0.
 void begin_window(Flow& flow, double t_end);
 
-/// The void fraction at the window's end, reached linearly. Fits the flux to the new rate, so that
-/// the first alpha step of the window is volume-true. Call after begin_window. eps: one value per cell.
-void set_porosity_target(Flow& flow, const Foam::scalarField& eps);
+/// The void fraction at the window's end, reached linearly. Fits the flux to the new rate, so that the
+/// first alpha step of the window already follows it. Call after begin_window. eps: one value per cell.
+/// Throws if a box without a pressure boundary would have to change its fluid volume.
+void set_porosity_target(Flow& flow, const scalarField& eps);
 
 // ---- a time step, in this order ----------------------------------------------------------------
 
-bool advance_clock(Flow& flow);       // false at the window's end, or without a window at the run's end
-bool refine_mesh(Flow& flow);         // true if the mesh changed: fields are mapped, fluxes corrected
+bool advance_clock(Flow& flow);  // false at the window's end, or without windows at the run's end
+bool refine_mesh(Flow& flow);    // true if the mesh changed: fields are mapped, fluxes corrected
 void update_porosity(Flow& flow);
-bool outer_corrector(Flow& flow);     // while true: the next four
+bool outer_corrector(Flow& flow);  // while true: the next four
 void advect_interface(Flow& flow);
 void predict_momentum(Flow& flow);
-bool pressure_corrector(Flow& flow);  // while true: correct_pressure; ends with the turbulence model
+bool pressure_corrector(Flow& flow);  // while true: correct_pressure; then the turbulence model
 void correct_pressure(Flow& flow);
-void end_step(Flow& flow);            // ledger, bounds; without a window also field output as in controlDict
+void end_step(Flow& flow);  // impulse, bounds; without windows also output as in controlDict
+
+// ---- used by several stages --------------------------------------------------------------------
+
+/// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
+/// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves.
+void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
+
+/// Mobility for fit_flux from density, void fraction and drag, m3 s/kg.
+tmp<surfaceScalarField> projection_mobility(const Flow& flow);
+
+/// Rate at which the void fraction has to grow to be where it should be after the coming step, 1/s.
+tmp<scalarField> wanted_porosity_rate(const Flow& flow);
 
 // ---- to be read by others ----------------------------------------------------------------------
 
-/// Gradient of the total pressure from the face values that drive the momentum equation, Pa/m, one
-/// value per cell: exactly rho g in a fluid at rest.
-Foam::tmp<Foam::volVectorField> pressure_gradient(const Flow& flow);
+/// Gradient of the total pressure from the face values that drive the momentum equation, Pa/m:
+/// exactly rho g in a fluid at rest.
+tmp<volVectorField> pressure_gradient(const Flow& flow);
 
-/// Effective (laminar + turbulent) dynamic viscosity of the mixture, Pa s, one value per cell.
-Foam::tmp<Foam::scalarField> dynamic_viscosity(const Flow& flow);
+/// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s.
+tmp<volScalarField> dynamic_viscosity(const Flow& flow);
 
 }  // namespace demvof

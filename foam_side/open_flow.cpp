@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads an interFoam case: 0/ (U, p_rgh, alpha.*), constant/ (transportProperties, turbulenceProperties,
+// g, hRef), system/ (controlDict, fvSchemes, fvSolution with PIMPLE and alpha.*).
+
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+namespace {
+
+Foam::IOobject file(const Foam::Time& time, const Foam::objectRegistry& registry, const Foam::word& name,
+                    Foam::IOobject::readOption read) {
+  return {name, time.timeName(), registry, read, Foam::IOobject::AUTO_WRITE};
+}
+
+/// The gravity potential's zero: constant/hRef is a height, taken along the axis of g.
+dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField& g,
+                                      const Foam::fvMesh& mesh) {
+  const Foam::uniformDimensionedScalarField height(
+      Foam::IOobject("hRef", mesh.time().constant(), mesh, Foam::IOobject::READ_IF_PRESENT,
+                     Foam::IOobject::NO_WRITE),
+      dimensionedScalar(Foam::dimLength, Foam::Zero));
+  const Foam::vector axis = Foam::cmptMag(g.value()) / (Foam::mag(g.value()) + Foam::VSMALL);
+  return (g & axis) * height;
+}
+
+void require_euler(const Foam::fvMesh& mesh, const Foam::word& term) {
+  Foam::ITstream& scheme = mesh.ddtScheme(term);
+  const Foam::word name(scheme);
+  if (name != "Euler")
+    FatalIOErrorInFunction(mesh.schemesDict())
+        << "ddtSchemes: " << term << " is " << name << ", this solver does Euler only"
+        << Foam::exit(Foam::FatalIOError);
+}
+
+void refuse_file(const Foam::fvMesh& mesh, const Foam::word& folder, const Foam::word& name) {
+  Foam::IOobject object(name, folder, mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
+  if (object.typeHeaderOk<Foam::IOdictionary>(true))
+    FatalErrorInFunction << folder << '/' << name << ": this solver does not do " << name
+                         << ", remove the file" << Foam::exit(Foam::FatalError);
+}
+
+void refuse_what_is_not_done(const Flow& flow) {
+  require_euler(flow.mesh, "ddt(rho,U)");
+  require_euler(flow.mesh, "ddt(alpha)");
+  refuse_file(flow.mesh, flow.time.constant(), "MRFProperties");
+  refuse_file(flow.mesh, flow.time.constant(), "fvOptions");
+  refuse_file(flow.mesh, flow.time.system(), "fvOptions");
+
+  const Foam::dictionary& controls = flow.mesh.solverDict(flow.alpha.name());
+  for (const char* key : {"icAlpha", "scAlpha"})
+    if (controls.lookupOrDefault<scalar>(key, 0) != 0)
+      FatalIOErrorInFunction(controls) << key << ": only 0" << Foam::exit(Foam::FatalIOError);
+  if (controls.lookupOrDefault("alphaApplyPrevCorr", false))
+    FatalIOErrorInFunction(controls) << "alphaApplyPrevCorr: only no" << Foam::exit(Foam::FatalIOError);
+}
+
+}  // namespace
+
+ParticleSource::ParticleSource(const Foam::fvMesh& mesh)
+    : force(Foam::IOobject("particleForce", mesh.time().timeName(), mesh), mesh,
+            Foam::dimensionedVector(Foam::dimForce / Foam::dimVolume, Foam::Zero)),
+      coefficient(Foam::IOobject("particleCoefficient", mesh.time().timeName(), mesh), mesh,
+                  dimensionedScalar(Foam::dimDensity / Foam::dimTime, Foam::Zero)),
+      reference(Foam::IOobject("particleReference", mesh.time().timeName(), mesh), mesh,
+                Foam::dimensionedVector(Foam::dimVelocity, Foam::Zero)),
+      implicit_impulse(Foam::IOobject("particleImpulse", mesh.time().timeName(), mesh), mesh,
+                       Foam::dimensionedVector(Foam::dimDensity * Foam::dimVelocity, Foam::Zero)) {}
+
+Flow::Flow(const Foam::argList& args, const Scene& plan)
+    : scene(plan),
+      time(Foam::Time::controlDictName, args),
+      mesh_owner(Foam::dynamicFvMesh::New(
+          file(time, time, Foam::dynamicFvMesh::defaultRegion, Foam::IOobject::MUST_READ))),
+      mesh(*mesh_owner),
+      pimple(mesh),
+      p_rgh(file(time, mesh, "p_rgh", Foam::IOobject::MUST_READ), mesh),
+      U(file(time, mesh, "U", Foam::IOobject::MUST_READ), mesh),
+      porosity(scene.porosity ? std::make_unique<Porosity>(mesh) : nullptr),
+      source(scene.particles ? std::make_unique<ParticleSource>(mesh) : nullptr),
+      phi(file(time, mesh, "phi", Foam::IOobject::READ_IF_PRESENT),
+          porosity ? fvc::interpolate(porosity->eps) * fvc::flux(U) : fvc::flux(U)),
+      mixture(U, phi),
+      alpha(mixture.alpha1()),
+      rho(Foam::IOobject("rho", time.timeName(), mesh),
+          alpha * mixture.rho1() + mixture.alpha2() * mixture.rho2()),
+      rho_phi(Foam::IOobject("rhoPhi", time.timeName(), mesh), fvc::interpolate(rho) * phi),
+      turbulence(Foam::incompressible::turbulenceModel::New(U, phi, mixture)),
+      g(Foam::meshObjects::gravity::New(time)),
+      gh_reference(reference_potential(g, mesh)),
+      gh("gh", (g & mesh.C()) - gh_reference),
+      ghf("ghf", (g & mesh.Cf()) - gh_reference),
+      p(Foam::IOobject("p", time.timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE),
+        p_rgh + rho * gh) {
+  rho.oldTime();  // ddt(rho, U) needs it from the first step on
+  mesh.setFluxRequired(p_rgh.name());
+  mesh.setFluxRequired(alpha.name());
+  Foam::setRefCell(p, p_rgh, pimple.dict(), p_reference_cell, p_reference);
+  clock.limit = time.deltaTValue();
+}
+
+std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene) {
+  Foam::FatalError.throwExceptions();
+  Foam::FatalIOError.throwExceptions();
+  auto flow = std::make_unique<Flow>(args, scene);
+  refuse_what_is_not_done(*flow);
+  const surfaceScalarField anywhere_alike(Foam::IOobject("rAUf", flow->time.timeName(), flow->mesh),
+                                          flow->mesh,
+                                          dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
+  fit_flux(*flow, anywhere_alike, nullptr);
+  flow->turbulence->validate();
+  if (flow->mesh.dynamic())
+    flow->face_velocity = std::make_unique<surfaceVectorField>("Uf", fvc::interpolate(flow->U));
+  return flow;
+}
+
+}  // namespace demvof

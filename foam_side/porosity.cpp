@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The void fraction through a window, and the flux that fits it.
+//
+//   goal(t) = goal(start) + rate (t - start),  rate = (target - goal(start)) / window
+//   eps^{n+1} = eps^n - dt div(phi)            carried by the same flux as alpha (advect_interface)
+//   div(phi) = -(rate + (goal - eps)/dt)       what continuity asks for
+//
+// The flux of a step is used by the alpha equation of the next one. When the rate changes, the flux of
+// the last step no longer fits: a potential correction, phi - M grad(psi).S with
+// div(M grad psi) = div(phi) + rate, is the impulsive pressure of that change.
+
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double negligible_change = 1e-13;  // of a void fraction in one step
+
+/// A box without a pressure boundary is full of incompressible fluid and particles.
+void refuse_change_of_closed_volume(const Flow& flow) {
+  if (!flow.p_rgh.needReference()) return;
+  const scalarField& rate = flow.porosity->rate.field();
+  const scalarField& volume = flow.mesh.V().field();
+  const double net = Foam::gSum(scalarField(rate * volume));
+  const double total = Foam::gSum(scalarField(Foam::mag(rate) * volume));
+  if (std::abs(net) > 1e-6 * total)
+    FatalErrorInFunction << "particles change the fluid volume by " << net
+                         << " m3/s in a box that no pressure boundary opens: give the case an opening"
+                         << Foam::exit(Foam::FatalError);
+}
+
+}  // namespace
+
+Porosity::Porosity(const Foam::fvMesh& mesh)
+    : eps(Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::READ_IF_PRESENT,
+                         Foam::IOobject::AUTO_WRITE),
+          mesh, dimensionedScalar("one", Foam::dimless, 1), Foam::zeroGradientFvPatchScalarField::typeName),
+      goal("voidFractionGoal", eps()),
+      rate(Foam::IOobject("voidFractionRate", mesh.time().timeName(), mesh), mesh,
+           dimensionedScalar(Foam::dimless / Foam::dimTime, Foam::Zero)) {}
+
+void set_initial_porosity(Flow& flow, const scalarField& eps) {
+  Porosity& porosity = *flow.porosity;
+  porosity.goal.field() = eps;
+  porosity.rate.field() = 0;
+  porosity.eps.primitiveFieldRef() = eps;
+  porosity.eps.correctBoundaryConditions();
+  flow.phi = fvc::interpolate(porosity.eps) * fvc::flux(flow.U);
+  fit_flux(flow, projection_mobility(flow), nullptr);
+}
+
+void set_porosity_target(Flow& flow, const scalarField& eps) {
+  Porosity& porosity = *flow.porosity;
+  porosity.rate.field() = (eps - porosity.goal.field()) / (flow.clock.window_end - flow.time.value());
+  refuse_change_of_closed_volume(flow);
+  const tmp<scalarField> wanted = wanted_porosity_rate(flow);
+  const tmp<volScalarField> divergence = fvc::div(flow.phi);
+  const double worst = Foam::gMax(Foam::mag(divergence().primitiveField() + wanted())());
+  if (worst * flow.time.deltaTValue() > negligible_change)
+    fit_flux(flow, projection_mobility(flow), &wanted());
+}
+
+void update_porosity(Flow& flow) {
+  if (!flow.porosity) return;
+  flow.porosity->eps.oldTime();  // kept here, before anything of this step changes eps
+  flow.porosity->goal.field() += flow.porosity->rate.field() * flow.time.deltaTValue();
+}
+
+tmp<scalarField> wanted_porosity_rate(const Flow& flow) {
+  const Porosity& porosity = *flow.porosity;
+  return porosity.rate.field() +
+         (porosity.goal.field() - porosity.eps.primitiveField()) / flow.time.deltaTValue();
+}
+
+tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
+  // A fluid cell answers to a pressure gradient like eps dt / (eps rho + dt C).
+  volScalarField mobility("mobility", 1 / flow.rho);
+  if (flow.source) {
+    const scalar dt = flow.time.deltaTValue();
+    forAll(mobility, cell) {
+      const scalar eps = flow.porosity ? flow.porosity->eps[cell] : 1;
+      mobility[cell] = eps / (eps * flow.rho[cell] + dt * flow.source->coefficient[cell]);
+    }
+  }
+  tmp<surfaceScalarField> at_faces = flow.time.deltaT() * fvc::interpolate(mobility);
+  if (flow.porosity) at_faces.ref() *= fvc::interpolate(flow.porosity->eps);
+  return at_faces;
+}
+
+void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
+  Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
+  forAll(types, patch) {
+    if (flow.p_rgh.boundaryField()[patch].fixesValue())
+      types[patch] = Foam::fixedValueFvPatchScalarField::typeName;
+  }
+  volScalarField potential(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
+                           dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
+  flow.mesh.setFluxRequired(potential.name());
+  if (potential.needReference()) Foam::adjustPhi(flow.phi, flow.U, potential);
+
+  while (flow.pimple.correctNonOrthogonal()) {
+    Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flow.phi));
+    if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;
+    equation.setReference(0, 0);
+    const bool last = flow.pimple.finalNonOrthogonalIter();
+    equation.solve(flow.mesh.solver(potential.select(last)));
+    if (last) flow.phi -= equation.flux();
+  }
+}
+
+}  // namespace demvof
