@@ -77,7 +77,7 @@ BulkSeries::BulkSeries(MPI_Comm world, BulkGrid grid, const fs::path& folder, co
       grid_(std::move(grid)),
       folder_(folder / name),
       name_(name),
-      index_(folder / (name + ".pvd")) {
+      index_(folder_ / (name + ".pvd")) {
   vtk_file::prepare_folder(world_, folder_, name_);
 }
 
@@ -87,7 +87,7 @@ void BulkSeries::write(double time, const CellValues<BulkFrame>& active) {
   vtk_file::on_all_ranks(world_, folder_, [&] {
     if (vtk_file::rank_of(world_) != 0) return;
     write_bulk(folder_ / file, grid_, all);
-    index_.add(time, name_ + "/" + file);
+    index_.add(time, file);
   });
 }
 

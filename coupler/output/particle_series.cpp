@@ -77,7 +77,7 @@ void write_pieces_index(const fs::path& path, const std::vector<std::string>& pi
 }  // namespace
 
 ParticleSeries::ParticleSeries(MPI_Comm world, const fs::path& folder, const std::string& name)
-    : world_(world), folder_(folder / name), name_(name), index_(folder / (name + ".pvd")) {
+    : world_(world), folder_(folder / name), name_(name), index_(folder_ / (name + ".pvd")) {
   vtk_file::prepare_folder(world_, folder_, name_);
 }
 
@@ -100,7 +100,7 @@ void ParticleSeries::write(double time, const ParticleFrame& frame) {
       whole = stem + ".pvtp";
       write_pieces_index(folder_ / whole, pieces);
     }
-    index_.add(time, name_ + "/" + whole);
+    index_.add(time, whole);
   });
 }
 

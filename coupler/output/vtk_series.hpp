@@ -14,7 +14,7 @@
 #include "coupler/grid/vec3.hpp"
 
 // Time series that ParaView opens: <folder>/<name>/<name>_<number>.vtp or .vti, and
-// <folder>/<name>.pvd, which lists them with their times and is replaced in one step at each
+// <name>.pvd beside them, which lists them with their times and is replaced in one step at each
 // output, so that it is valid at any moment of a run.
 
 namespace demvof {
