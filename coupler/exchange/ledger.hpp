@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Books of one run: does what one side gave arrive at the other, and is anything made or lost?
+//
+//   exchange   J + L + F_e + F_i + (P_n+1 - P_n) = 0                per window
+//   momentum   m_s + m_f + P - sum of I = constant                  from the start
+//   solid      volume on the bulk grid = volume of the particles    per window
+//   liquid     volume - sum of what came in = constant              from the start
+//
+// J    impulse that the particles received as drag in the window, N s
+// L    impulse that the particles received as left-over of the window before, N s
+// F_e  impulse that the fluid received by the explicit part of the exchange, N s
+// F_i  and by its implicit part, N s
+// P    pending: received by the fluid, still owed to the particles, N s. After a window
+//      P = -F_i with conservative_implicit, plus what could not be handed over; else 0
+// m_s, m_f   momentum of particles and fluid, kg m/s
+// I    impulse from outside: gravity, walls, contacts with walls, pressure at the boundary, N s
+//
+// With conservative_implicit F_e = -J, L = P_n and P_n+1 = -F_i, so that the first sum is zero cell by cell.
+// semi_implicit leaves J + F_i open: the books show how much.
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupler/grid/vec3.hpp"
+
+namespace demvof {
+
+/// What one window moved; sums over all particles, cells and ranks.
+struct WindowBalance {
+  Vec3 drag_to_particles, left_over_to_particles;  // J, L
+  Vec3 explicit_to_fluid, implicit_to_fluid;       // F_e, F_i
+  Vec3 pending;                                    // P at the end of the window
+  double turnover = 0;  // sum over the bulk cells of |J|: keeps the relative error meaningful where
+                        // impulses of opposite sign cancel in the sum; 0 when not known
+  Vec3 particle_momentum, fluid_momentum;             // m_s, m_f at the end of the window
+  Vec3 external;                                      // I of the window
+  double bulk_solid_volume = 0, particle_volume = 0;  // at the end of the window, m3
+  double liquid_volume = 0;                           // at the end of the window, m3
+  double liquid_in = 0;                               // came in through the boundary in the window, m3
+};
+
+/// Relative errors, -.
+struct ConservationErrors {
+  double exchange = 0;       // |sum| / (largest of |J|, |L|, |F_e + F_i|, |P_n|, |P_n+1|, turnover)
+  double momentum = 0;       // |drift from the start| / (largest |m_s| + |m_f|, or |sum of I|, up to now)
+  double solid_volume = 0;   // |bulk - particles| / particles
+  double liquid_volume = 0;  // |drift from the start| / (start + sum of what came in)
+};
+
+class Ledger {
+ public:
+  /// State at the start; nothing is pending yet.
+  Ledger(const Vec3& particle_momentum, const Vec3& fluid_momentum, double liquid_volume)
+      : start_momentum_(particle_momentum + fluid_momentum),
+        momentum_scale_(norm(particle_momentum) + norm(fluid_momentum)),
+        liquid_(liquid_volume) {}
+
+  /// Enters a window; its errors.
+  ConservationErrors close(const WindowBalance& window) {
+    ConservationErrors errors;
+    const Vec3 to_fluid = window.explicit_to_fluid + window.implicit_to_fluid;
+    const Vec3 open =
+        window.drag_to_particles + window.left_over_to_particles + to_fluid + (window.pending - pending_);
+    errors.exchange = relative(
+        norm(open), std::max({norm(window.drag_to_particles), norm(window.left_over_to_particles),
+                              norm(to_fluid), norm(pending_), norm(window.pending), window.turnover}));
+    pending_ = window.pending;
+
+    external_ += window.external;
+    const Vec3 drift =
+        window.particle_momentum + window.fluid_momentum + pending_ - external_ - start_momentum_;
+    momentum_scale_ = std::max(
+        {momentum_scale_, norm(window.particle_momentum) + norm(window.fluid_momentum), norm(external_)});
+    errors.momentum = relative(norm(drift), momentum_scale_);
+
+    errors.solid_volume =
+        relative(std::abs(window.bulk_solid_volume - window.particle_volume), window.particle_volume);
+    liquid_ += window.liquid_in;
+    errors.liquid_volume = relative(std::abs(window.liquid_volume - liquid_), liquid_);
+
+    worst_.exchange = std::max(worst_.exchange, errors.exchange);
+    worst_.momentum = std::max(worst_.momentum, errors.momentum);
+    worst_.solid_volume = std::max(worst_.solid_volume, errors.solid_volume);
+    worst_.liquid_volume = std::max(worst_.liquid_volume, errors.liquid_volume);
+    return errors;
+  }
+
+  /// Largest of each error over the windows entered.
+  const ConservationErrors& worst() const { return worst_; }
+
+ private:
+  static double relative(double error, double size) {
+    if (error == 0) return 0;
+    const double ratio = error / size;
+    return ratio >= 0 ? ratio : HUGE_VAL;  // what is not a number must not get lost in a maximum
+  }
+
+  Vec3 start_momentum_, external_, pending_;
+  double momentum_scale_;  // kg m/s
+  double liquid_;          // what there should be, m3
+  ConservationErrors worst_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include "coupler/grid/bulk_cells.hpp"
+
+namespace demvof {
+
+/// What limit_solid did; the same on every rank.
+struct SolidRelief {
+  CellId cells = 0;       // bulk cells that held too much
+  double volume = 0;      // moved out of them, m3
+  double not_placed = 0;  // still above the limit somewhere, because the grid has no room for it, m3
+};
+
+/// Moves solid volume out of bulk cells that hold more than maximum_solid_fraction of their volume.
+///
+/// The excess of a cell goes in equal shares to those of its face neighbours that are below the limit, or to
+/// all of them when none is; this is repeated until no cell is above the limit. The sum over all cells is
+/// kept to round-off, and the result is the same to the last bit for any number of ranks. Only solid_volume
+/// changes; cells that had no particles become active when they receive some. When all cells together have
+/// less room than there are particles nothing is moved.
+///
+/// owned: cells owned by this rank. Collective over world.
+SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+                        double maximum_solid_fraction, CellValues<BulkParticles>& owned);
+
+}  // namespace demvof

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/transfer/limit_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <random>
+
+#include "tests/support/mpi_main.hpp"
+
+namespace demvof {
+namespace {
+
+using Volumes = std::map<CellId, double>;
+
+/// Runs limit_solid on cells spread over the ranks of comm; all volumes afterwards, on every rank.
+struct Outcome {
+  Volumes volumes;
+  SolidRelief relief;
+};
+Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volumes& before) {
+  int rank, ranks;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  const BulkPartition partition(grid.cell_count(), ranks);
+  CellValues<BulkParticles> owned;
+  for (const auto& [cell, volume] : before)
+    if (partition.owner(cell) == rank) {
+      owned.cells.push_back(cell);
+      owned.values.emplace_back();
+      owned.values.back().solid_volume = volume;
+      owned.values.back().drag_factor = 7 + static_cast<double>(cell);
+    }
+  Outcome outcome;
+  outcome.relief = limit_solid(comm, grid, partition, fraction, owned);
+
+  std::vector<double> all(grid.cell_count(), -1.0);
+  CellId before_this = -1;
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    EXPECT_LT(before_this, owned.cells[i]) << "sorted";
+    before_this = owned.cells[i];
+    EXPECT_EQ(partition.owner(owned.cells[i]), rank);
+    all[owned.cells[i]] = owned.values[i].solid_volume;
+    EXPECT_EQ(owned.values[i].drag_factor, before.count(owned.cells[i]) ? 7 + owned.cells[i] : 0)
+        << "untouched";
+  }
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX, comm);
+  for (CellId cell = 0; cell < grid.cell_count(); ++cell)
+    if (all[cell] >= 0) outcome.volumes[cell] = all[cell];
+  return outcome;
+}
+
+double sum(const Volumes& volumes) {
+  double total = 0;
+  for (const auto& [cell, volume] : volumes) total += volume;
+  return total;
+}
+
+TEST(LimitSolid, LeavesCellsBelowTheLimitAlone) {
+  const BulkGrid grid({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  const Volumes before{{0, 0.74}, {13, 0.2}, {26, 0.5}};
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.74, before);
+  EXPECT_EQ(outcome.volumes, before);
+  EXPECT_EQ(outcome.relief.cells, 0);
+  EXPECT_EQ(outcome.relief.volume, 0);
+}
+
+TEST(LimitSolid, TheExcessGoesInEqualSharesToNeighboursWithRoom) {
+  const BulkGrid grid({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  const CellId centre = grid.id({1, 1, 1}), full = grid.id({2, 1, 1});
+  const Outcome outcome =
+      limited(MPI_COMM_WORLD, grid, 0.5, {{centre, 1.0}, {full, 0.5}, {grid.id({1, 0, 1}), 0.25}});
+  EXPECT_EQ(outcome.volumes.size(), 7u);
+  EXPECT_EQ(outcome.volumes.at(centre), 0.5);
+  EXPECT_EQ(outcome.volumes.at(full), 0.5);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(grid.id({0, 1, 1})), 0.1);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(grid.id({1, 0, 1})), 0.35);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(grid.id({1, 1, 2})), 0.1);
+  EXPECT_EQ(outcome.relief.cells, 1);
+  EXPECT_DOUBLE_EQ(outcome.relief.volume, 0.5);
+  EXPECT_EQ(outcome.relief.not_placed, 0);
+}
+
+TEST(LimitSolid, ExcessInTheMiddleOfAFullRegionGetsOut) {
+  const BulkGrid grid({0, 0, 0}, {7, 7, 7}, {7, 7, 7});
+  Volumes before;
+  for (int k = 1; k < 6; ++k)
+    for (int j = 1; j < 6; ++j)
+      for (int i = 1; i < 6; ++i) before[grid.id({i, j, k})] = 0.5;
+  before[grid.id({3, 3, 3})] = 1.5;
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, before);
+  EXPECT_EQ(outcome.relief.not_placed, 0);
+  EXPECT_NEAR(sum(outcome.volumes), sum(before), 1e-12);
+  for (const auto& [cell, volume] : outcome.volumes) EXPECT_LE(volume, 0.5 * (1 + 1e-12));
+  // As symmetric as it began.
+  for (const auto& [cell, volume] : outcome.volumes) {
+    const auto [i, j, k] = grid.ijk(cell);
+    EXPECT_NEAR(volume, outcome.volumes.at(grid.id({6 - i, k, j})), 1e-14);
+  }
+}
+
+TEST(LimitSolid, RandomOverfullCellsConserveAndDoNotDependOnTheRanks) {
+  for (const bool periodic : {false, true})
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      const BulkGrid grid({0, 0, 0}, {1, 0.8, 1.2}, {10, 8, 12}, {periodic, periodic, false});
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<> uniform(0, 1);
+      Volumes before;
+      for (CellId cell = 0; cell < grid.cell_count(); ++cell)
+        if (uniform(random) < 0.4)
+          before[cell] = grid.cell_volume() * (uniform(random) < 0.2 ? 4 : 0.6) * uniform(random);
+      const Outcome spread = limited(MPI_COMM_WORLD, grid, 0.64, before);
+      const Outcome alone = limited(MPI_COMM_SELF, grid, 0.64, before);
+      EXPECT_EQ(spread.volumes, alone.volumes) << "to the last bit";
+      EXPECT_GT(spread.relief.cells, 10);
+      EXPECT_EQ(spread.relief.cells, alone.relief.cells);
+      EXPECT_NEAR(sum(spread.volumes) / sum(before), 1, 1e-14);
+      double excess = 0;
+      for (const auto& [cell, volume] : before) excess += std::max(0.0, volume - 0.64 * grid.cell_volume());
+      EXPECT_NEAR(spread.relief.volume / excess, 1, 1e-13);
+      for (const auto& [cell, volume] : spread.volumes)
+        EXPECT_LE(volume, 0.64 * grid.cell_volume() * (1 + 1e-12));
+    }
+}
+
+TEST(LimitSolid, SaysWhatTheGridHasNoRoomFor) {
+  const BulkGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, {{0, 1.0}, {1, 0.25}});
+  EXPECT_DOUBLE_EQ(outcome.relief.not_placed, 0.5);
+  EXPECT_EQ(outcome.relief.volume, 0);
+  EXPECT_EQ(outcome.volumes.at(0), 1.0);
+}
+
+}  // namespace
+}  // namespace demvof
