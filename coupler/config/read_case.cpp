@@ -87,7 +87,10 @@ void Reading::read_file() {
     throw InputError(fmt::format("{}:{}: not valid YAML: {}", file_, error.mark.line + 1, error.msg));
   }
   if (documents.size() > 1) add(source_of(documents[1]), "", "a second YAML document; a case file holds one");
-  if (documents.empty()) documents.emplace_back();
+  const bool empty = documents.empty() || documents[0].IsNull();
+  if (empty || !documents[0].IsMap())
+    throw InputError(fmt::format("{}: the case file {}; give a map with {}", file_,
+                                 empty ? "is empty" : "is no map", fmt::join(names_inside(""), ", ")));
   walk_section(documents[0], "", nullptr);
 }
 
@@ -117,7 +120,10 @@ void Reading::read_override(const std::string& assignment) {
     return;
   }
   // An override may open a section that the file does not have.
-  for (std::string up = parent_of(path); !up.empty(); up = parent_of(up)) sections_.emplace(up, source);
+  for (std::string up = parent_of(path); !up.empty(); up = parent_of(up)) {
+    sections_.emplace(up, source);
+    sources_.emplace(up, source);
+  }
   walk_value(value, path, source, &source);
 }
 
@@ -126,12 +132,6 @@ Source Reading::source_of(const YAML::Node& node) const {
 }
 
 void Reading::walk_section(const YAML::Node& node, const std::string& path, const Source* override_source) {
-  if (!node.IsMap()) {
-    const std::string given = node.IsNull() ? "empty" : given_text(node) + " is not allowed";
-    add(override_source ? *override_source : source_of(node), path,
-        fmt::format("{}; give a map with {}", given, fmt::join(names_inside(path), ", ")));
-    return;
-  }
   std::vector<std::string> seen;
   for (const auto& item : node)
     walk_item(item.first.IsScalar() ? item.first.Scalar() : given_text(item.first), item.first, item.second,
@@ -140,12 +140,6 @@ void Reading::walk_section(const YAML::Node& node, const std::string& path, cons
 
 void Reading::walk_list(const YAML::Node& node, const std::string& path, const Source* override_source) {
   const Source source = override_source ? *override_source : source_of(node);
-  if (!node.IsSequence()) {
-    add(source, path,
-        fmt::format("{} is not allowed; give a list of {}", given_text(node),
-                    fmt::join(names_inside(path), ", ")));
-    return;
-  }
   // What a given list does not name is off.
   for (const Key& key : case_keys())
     if (parent_of(key.path) == path) {
@@ -198,6 +192,12 @@ void Reading::walk_value(const YAML::Node& value, const std::string& path, const
     values_[path] = value;
     return;
   }
+  if (section->is_list ? !value.IsSequence() : !value.IsMap()) {
+    add(source, path,
+        fmt::format("{} is not allowed; give a {} {}", given_text(value),
+                    section->is_list ? "list of" : "map with", fmt::join(names_inside(path), ", ")));
+    return;
+  }
   sections_[path] = source;
   if (section->is_list)
     walk_list(value, path, override_source);
@@ -210,7 +210,7 @@ CaseParameters Reading::fill() {
   parameters.file = file_;
   for (const Section& section : case_sections()) {
     if (section_given(section.path)) section.create(parameters);
-    if (section.presence == Section::Presence::required && !section_given(section.path))
+    if (section.presence == Section::Presence::required && !sources_.count(section.path))
       add(Source{file_, 0}, section.path, "missing; " + section.doc);
   }
   for (const Key& key : case_keys()) {

@@ -59,7 +59,8 @@ std::string not_allowed(const YAML::Node& node, const ValueRule& rule) {
 std::optional<std::string> read_number(const YAML::Node& node, const ValueRule& rule, Json& value) {
   std::string text = node.Scalar();
   const std::size_t point = text.find('.');
-  if (point + 1 < text.size() && std::isalpha(text[point + 1])) text.erase(point, 1);  // YAML's .nan, -.inf
+  if (point != std::string::npos && point + 1 < text.size() && std::isalpha(text[point + 1]))
+    text.erase(point, 1);  // YAML's .nan, -.inf
   double number = 0;
   if (!parse(text, number)) return not_allowed(node, rule);
   if (!std::isfinite(number))
@@ -133,6 +134,7 @@ std::optional<std::string> read_value(const YAML::Node& node, const ValueRule& r
 std::string given_text(const YAML::Node& node) {
   if (node.IsNull() || !node.IsDefined()) return "nothing";
   YAML::Emitter out;
+  if (node.IsScalar() && node.Tag() == "!") out << YAML::DoubleQuoted;
   out.SetMapFormat(YAML::Flow);
   out.SetSeqFormat(YAML::Flow);
   out << node;

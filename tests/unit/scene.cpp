@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every decision of the scene plan: found from the facts, forced either way, and forced in vain.
+#include "coupler/scene/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+/// Water, air and beads; not turbulent.
+SceneFacts three_phases() {
+  SceneFacts facts;
+  facts.surface_tension = 0.07;
+  facts.particles = true;
+  facts.particle_count = 3883;
+  facts.largest_solid_fraction = 0.3;
+  return facts;
+}
+
+Decision decision(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.decisions.begin(), scene.decisions.end(),
+                                  [&](const Decision& d) { return d.decision == name; });
+  return found == scene.decisions.end() ? Decision{"no decision " + name, false, ""} : *found;
+}
+
+/// What plan_scene refuses with, or "nothing".
+std::string refusal(const SceneParameters& forced, const SceneFacts& facts) {
+  try {
+    plan_scene(forced, facts);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(ScenePlan, HasEverythingThatThreePhasesNeed) {
+  const Scene scene = plan_scene({}, three_phases());
+  EXPECT_TRUE(scene.particles && scene.surface_tension && scene.interface_advection && scene.porosity);
+  EXPECT_FALSE(scene.turbulence);
+  EXPECT_EQ(decision(scene, "particles").reason, "The script gives 3883 particles at the start.");
+  EXPECT_EQ(decision(scene, "surface tension").reason, "The fluid case's coefficient is 0.07 N/m.");
+}
+
+TEST(ScenePlan, GivesEveryDecisionOnceWithOneSentence) {
+  for (const bool particles : {false, true}) {
+    SceneFacts facts = three_phases();
+    facts.particles = particles;
+    std::vector<std::string> names;
+    for (const Decision& d : plan_scene({}, facts).decisions) {
+      EXPECT_EQ(std::count(names.begin(), names.end(), d.decision), 0) << d.decision;
+      EXPECT_EQ(d.reason.back(), '.') << d.reason;
+      names.push_back(d.decision);
+    }
+    EXPECT_EQ(names.size(), 8u);
+  }
+}
+
+TEST(ScenePlan, IsPlainVofWithoutParticles) {
+  SceneFacts facts = three_phases();
+  facts.particles = false;
+  const Scene scene = plan_scene({}, facts);
+  EXPECT_FALSE(scene.particles || scene.porosity);
+  EXPECT_TRUE(scene.interface_advection && scene.surface_tension);
+  for (const char* name : {"porosity", "drag (schiller_naumann)", "pressure-gradient force"})
+    EXPECT_EQ(decision(scene, name).reason, "There are no particles.") << name;
+}
+
+TEST(ScenePlan, LeavesParticlesOutOnDemand) {
+  SceneParameters forced;
+  forced.particles = Switch::off;
+  const Scene scene = plan_scene(forced, three_phases());
+  EXPECT_FALSE(scene.particles || scene.porosity);
+  EXPECT_EQ(decision(scene, "particles").reason, "The case file says scene.particles: off.");
+}
+
+TEST(ScenePlan, RefusesParticlesThatAreNotThere) {
+  SceneFacts facts = three_phases();
+  facts.particles = false;
+  SceneParameters forced;
+  forced.particles = Switch::on;
+  EXPECT_EQ(refusal(forced, facts), "scene.particles: on is impossible: the case has no particle script");
+}
+
+TEST(ScenePlan, ComputesNoCurvatureWithoutSurfaceTension) {
+  SceneFacts facts = three_phases();
+  facts.surface_tension = 0;
+  const Scene scene = plan_scene({}, facts);
+  EXPECT_FALSE(scene.surface_tension);
+  EXPECT_EQ(decision(scene, "surface tension").reason,
+            "The fluid case's coefficient is 0: no curvature is computed.");
+}
+
+TEST(ScenePlan, ForcesSurfaceTensionOffButNotOnWithoutACoefficient) {
+  SceneParameters forced;
+  forced.surface_tension = Switch::off;
+  EXPECT_FALSE(plan_scene(forced, three_phases()).surface_tension);
+  forced.surface_tension = Switch::on;
+  EXPECT_TRUE(plan_scene(forced, three_phases()).surface_tension);
+  SceneFacts facts = three_phases();
+  facts.surface_tension = 0;
+  EXPECT_EQ(refusal(forced, facts),
+            "scene.surface_tension: on is impossible: the fluid case's coefficient is 0");
+}
+
+TEST(ScenePlan, TransportsNoInterfaceInOneFluid) {
+  SceneFacts facts = three_phases();
+  facts.two_fluids = false;
+  const Scene scene = plan_scene({}, facts);
+  EXPECT_FALSE(scene.interface_advection || scene.surface_tension);
+  EXPECT_EQ(decision(scene, "interface transport").reason, "One fluid fills the domain and all inlets.");
+  EXPECT_TRUE(scene.porosity) << "particles in one fluid still displace it";
+}
+
+TEST(ScenePlan, ForcesInterfaceTransportEitherWay) {
+  SceneFacts facts = three_phases();
+  SceneParameters forced;
+  forced.interface_advection = Switch::off;
+  EXPECT_FALSE(plan_scene(forced, facts).interface_advection);
+  forced.interface_advection = Switch::on;
+  facts.two_fluids = false;
+  const Scene scene = plan_scene(forced, facts);
+  EXPECT_TRUE(scene.interface_advection);
+  EXPECT_EQ(decision(scene, "interface transport").reason, "The case file says scene.interface: on.");
+}
+
+TEST(ScenePlan, LeavesPorosityOutOnlyBelowAStatedLimit) {
+  SceneFacts facts = three_phases();
+  facts.largest_solid_fraction = 1e-4;
+  SceneParameters forced;
+  EXPECT_TRUE(plan_scene(forced, facts).porosity) << "no limit is stated";
+  forced.dilute_limit = 1e-3;
+  const Scene dilute = plan_scene(forced, facts);
+  EXPECT_FALSE(dilute.porosity);
+  EXPECT_EQ(decision(dilute, "porosity").reason,
+            "The largest solid fraction, 0.0001, is below scene.dilute_limit, 0.001.");
+  facts.largest_solid_fraction = 1e-3;
+  EXPECT_TRUE(plan_scene(forced, facts).porosity) << "at the limit is not below it";
+}
+
+TEST(ScenePlan, KeepsPorosityWhenParticlesAreStillToCome) {
+  SceneFacts facts = three_phases();
+  facts.largest_solid_fraction = 0;
+  facts.inserts_particles = true;
+  SceneParameters forced;
+  forced.dilute_limit = 1e-3;
+  EXPECT_TRUE(plan_scene(forced, facts).porosity);
+}
+
+TEST(ScenePlan, ForcesPorosityOffButNotOnWithoutParticles) {
+  SceneParameters forced;
+  forced.porosity = Switch::off;
+  EXPECT_FALSE(plan_scene(forced, three_phases()).porosity);
+  forced.porosity = Switch::on;
+  SceneFacts facts = three_phases();
+  forced.dilute_limit = 1;
+  EXPECT_TRUE(plan_scene(forced, facts).porosity) << "forced beats the limit";
+  facts.particles = false;
+  EXPECT_EQ(refusal(forced, facts), "scene.porosity: on is impossible: there are no particles");
+}
+
+TEST(ScenePlan, TellsEverythingThatIsForcedInVain) {
+  SceneFacts nothing;
+  SceneParameters forced;
+  forced.particles = forced.surface_tension = forced.porosity = Switch::on;
+  const std::string text = refusal(forced, nothing);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+TEST(ScenePlan, SaysWhichForcesAct) {
+  ForceParameters forces;
+  forces.drag = DragLaw::none;
+  const Scene scene = plan_scene({}, three_phases(), forces);
+  EXPECT_FALSE(decision(scene, "drag").on);
+  EXPECT_EQ(decision(scene, "drag").reason, "It is not named in forces.");
+  EXPECT_TRUE(decision(scene, "pressure-gradient force").on);
+}
+
+TEST(ScenePlan, NeverExchangesEmptyBulkCells) {
+  const std::string name = "exchange of bulk cells without particles near them";
+  const Scene scene = plan_scene({}, three_phases());
+  EXPECT_FALSE(decision(scene, name).on);
+  EXPECT_EQ(decision(scene, name).reason, "They are always left out: not averaged, not exchanged.");
+}
+
+TEST(ScenePlan, FollowsTheFluidCaseInTurbulence) {
+  SceneFacts facts = three_phases();
+  EXPECT_FALSE(decision(plan_scene({}, facts), "turbulence model").on);
+  facts.turbulent = true;
+  EXPECT_TRUE(plan_scene({}, facts).turbulence);
+  EXPECT_TRUE(decision(plan_scene({}, facts), "turbulence model").on);
+}
+
+TEST(SceneTable, IsALinePerDecision) {
+  EXPECT_EQ(scene_table({{"drag", true, "Yes."}, {"turbulence", false, "No."}}),
+            "on   drag        Yes.\noff  turbulence  No.\n");
+}
+
+}  // namespace
+}  // namespace demvof
