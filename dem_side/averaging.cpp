@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/averaging.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace demvof {
+namespace {
+
+// What one bulk cell offers to a particle's mean; zero where there is no fluid.
+struct CellSample {
+  double fluid = 0;  // 1 with fluid
+  Vec3 velocity, pressure_gradient;
+  double density = 0, viscosity = 0;
+  Vec3 left_over_rate;  // M / sum of w beta, m
+};
+
+template <class T>
+const double* rows(const std::vector<T>& values) {
+  return reinterpret_cast<const double*>(values.data());
+}
+template <class T>
+double* rows(std::vector<T>& values) {
+  return reinterpret_cast<double*>(values.data());
+}
+
+}  // namespace
+
+Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+                     const AveragingParameters& parameters)
+    : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {}
+
+const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& particles,
+                                                    const std::vector<BulkParticles>& contributions) {
+  std::vector<Vec3> positions(particles.count);
+  for (int i = 0; i < particles.count; ++i) positions[i] = vec3(particles.position[i]);
+  weights_ = kernel_weights(grid_, parameters_, positions);
+  touched_.emplace(world_, partition_, weights_.cells);
+
+  std::vector<BulkParticles> touched(weights_.cells.size());
+  demvof::deposit(weights_, rows(contributions), row_width<BulkParticles>(), rows(touched));
+  deposited_ = touched_->sum_to_owners(touched);
+  return deposited_;
+}
+
+std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owned) {
+  CellValues<CellSample> offered{owned.cells, std::vector<CellSample>(owned.cells.size())};
+  unplaced_left_over_ = {};
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    const BulkFluid& fluid = owned.values[i];
+    CellSample& sample = offered.values[i];
+    if (fluid.density > 0)
+      sample = {1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, {}};
+
+    const auto& cells = deposited_.cells;
+    const auto found = std::lower_bound(cells.begin(), cells.end(), owned.cells[i]);
+    const bool known = found != cells.end() && *found == owned.cells[i];
+    const double drag_factor = known ? deposited_.values[found - cells.begin()].drag_factor : 0;
+    if (drag_factor > 0)
+      sample.left_over_rate = fluid.left_over / drag_factor;
+    else
+      unplaced_left_over_ += fluid.left_over;
+  }
+
+  assert(touched_);
+  const std::vector<CellSample> cells = touched_->fetch_from_owners(offered, CellSample{});
+  std::vector<CellSample> means(weights_.particles());
+  demvof::sample(weights_, rows(cells), row_width<CellSample>(), rows(means));
+
+  std::vector<FluidAtParticle> at_particles(means.size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const CellSample& mean = means[i];
+    if (mean.fluid > 0)
+      at_particles[i] = {mean.velocity / mean.fluid,
+                         mean.pressure_gradient / mean.fluid,
+                         mean.density / mean.fluid,
+                         mean.viscosity / mean.fluid,
+                         {}};
+    at_particles[i].left_over_rate = mean.left_over_rate;
+  }
+  return at_particles;
+}
+
+}  // namespace demvof

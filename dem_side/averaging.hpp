@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/kernel_weights.hpp"
+#include "dem_side/forces.hpp"
+#include "dem_side/particle_arrays.hpp"
+
+namespace demvof {
+
+/// Particles to bulk grid at the end of a window, and the bulk fluid back to the particles at the
+/// start of the next, with the same weights: no particle moves in between.
+class Averaging {
+ public:
+  Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+            const AveragingParameters& parameters);
+
+  /// Sums the particles' contributions into the bulk cells they reach. Collective.
+  /// contributions: one per local particle. Returned: this rank's cells.
+  const CellValues<BulkParticles>& deposit(const ParticleArrays& particles,
+                                           const std::vector<BulkParticles>& contributions);
+
+  /// The fluid at each local particle of the last deposit. Collective. owned: this rank's cells of
+  /// that deposit. Cells without fluid do not count in the mean; a particle that reaches no other
+  /// gets density 0.
+  std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned);
+
+  const CellValues<BulkParticles>& deposited() const { return deposited_; }
+  /// Left-over impulse that came for cells without drag in the last sample, this rank, N s: given
+  /// to nobody.
+  const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
+
+ private:
+  MPI_Comm world_;
+  BulkGrid grid_;
+  BulkPartition partition_;
+  AveragingParameters parameters_;
+  KernelWeights weights_;
+  std::optional<TouchedCells> touched_;
+  CellValues<BulkParticles> deposited_;
+  Vec3 unplaced_left_over_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/dem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "atom.h"
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/errors.hpp"
+#include "coupler/link/mpi_check.hpp"
+#include "dem_side/script_requirements.hpp"
+#include "domain.h"
+#include "fix_external.h"
+#include "fix_gravity.h"
+#include "fix_property_atom.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* external_fix = "demvof_fluid_force";
+
+// The last error that LIGGGHTS wrote; its own words say best what it did not like.
+std::string error_line(const fs::path& log) {
+  std::fflush(nullptr);
+  std::ifstream lines(log);
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("ERROR") != std::string::npos) last = line;
+  return last.empty() ? "no error message in " + log.string() : last;
+}
+
+bool is_insertion(const LAMMPS_NS::Fix& fix) {
+  return std::string_view(fix.style).substr(0, 7) == "insert/";
+}
+
+template <class Function>
+void for_each_fix(const LAMMPS_NS::LAMMPS& liggghts, Function&& function) {
+  for (int i = 0; i < liggghts.modify->nfix; ++i) function(*liggghts.modify->fix[i]);
+}
+
+}  // namespace
+
+Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log) : world_(world), log_(log) {
+  if (!fs::is_regular_file(script))
+    throw InputError(fmt::format("particles.script: there is no file {}", script.string()));
+  fs::current_path(script.parent_path());
+
+  // A region prints to the screen even when there is none (a crash in 3.8): it gets a file instead.
+  std::vector<std::string> words = {"dem_side", "-screen", log.string(), "-log", "none", "-nocite"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  guarded([&] {
+    liggghts_ =
+        std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), world);
+    liggghts_->input->file(script.c_str());
+  });
+  require_coupled_scene(*liggghts_, script.string());
+
+  for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
+    const std::string_view style = fix.style;
+    if (style == "nve/sphere" || style == "nve") integrated_ |= fix.groupbit;
+    if (style == "freeze") frozen_ |= fix.groupbit;
+    if (style == "gravity") weighed_ |= fix.groupbit;
+  });
+}
+
+Dem::~Dem() = default;
+
+// A LIGGGHTS that has given up is in no state to be taken down, and its destructor may talk to ranks
+// that no longer listen: the instance is left to the end of the process.
+template <class Work>
+void Dem::guarded(Work&& work) {
+  try {
+    work();
+  } catch (const SolverStopped&) {
+    liggghts_.release();
+    throw SolverStopped("LIGGGHTS stopped: " + error_line(log_));
+  } catch (...) {
+    liggghts_.release();
+    throw;
+  }
+}
+
+void Dem::command(const std::string& line) {
+  guarded([&] { liggghts_->input->one(line.c_str()); });
+}
+
+void Dem::set_up() {
+  command("run 0 post no");
+}
+
+// "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
+void Dem::run(int steps) {
+  command(fmt::format("run {} pre no post no", steps));
+}
+
+ParticleArrays Dem::particles() const {
+  const LAMMPS_NS::Atom& atom = *liggghts_->atom;
+  return {atom.nlocal, atom.x, atom.v, atom.f, atom.radius, atom.rmass, atom.tag, atom.mask};
+}
+
+double Dem::time_step() const {
+  return liggghts_->update->dt;
+}
+
+Vec3 Dem::gravity() const {
+  Vec3 gravity;
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    double components[3];
+    if (auto* found = dynamic_cast<LAMMPS_NS::FixGravity*>(&fix)) {
+      found->get_gravity(components);
+      gravity = vec3(components);
+    }
+  });
+  return gravity;
+}
+
+ParticleDomain Dem::domain() const {
+  const LAMMPS_NS::Domain& box = *liggghts_->domain;
+  return {vec3(box.boxlo), vec3(box.boxhi), {box.xperiodic != 0, box.yperiodic != 0, box.zperiodic != 0}};
+}
+
+ParticleCensus Dem::census() const {
+  const ParticleArrays local = particles();
+  double sums[2] = {static_cast<double>(local.count), 0};
+  double extremes[2] = {-std::numeric_limits<double>::max(), 0};  // -smallest, largest radius
+  for (int i = 0; i < local.count; ++i) {
+    sums[1] += sphere_volume(local.radius[i]);
+    extremes[0] = std::max(extremes[0], -local.radius[i]);
+    extremes[1] = std::max(extremes[1], local.radius[i]);
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world_), "MPI_Allreduce");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 2, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
+  const long count = std::lround(sums[0]);
+  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1]};
+}
+
+bool Dem::inserts_particles() const {
+  bool inserts = false;
+  for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
+    inserts |= is_insertion(fix) && fix.next_reneighbor > liggghts_->update->ntimestep;
+  });
+  return inserts;
+}
+
+long Dem::inserted() const {
+  long inserted = 0;
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    if (is_insertion(fix)) inserted += std::lround(fix.compute_vector(0));
+  });
+  return inserted;
+}
+
+bool Dem::has_outlet() const {
+  return liggghts_->modify->find_fix_style("massflow/mesh", 0) != nullptr;
+}
+
+void Dem::add_fix(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  guarded([&] { liggghts_->modify->add_fix(static_cast<int>(arguments.size()), arguments.data()); });
+}
+
+void Dem::add_particle_rows(const std::string& name, int width) {
+  // no restart data, no communication to ghosts in either direction, zeros for new particles
+  std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "no", "no", "no"};
+  words.insert(words.end(), width, "0.0");
+  add_fix(std::move(words));
+}
+
+double* const* Dem::particle_rows(const std::string& name) const {
+  return liggghts_->modify->find_fix_id(name.c_str())->array_atom;
+}
+
+void Dem::attach(AddForces add_forces) {
+  add_forces_ = std::move(add_forces);
+  // Created after everything in the script, so that its post_force comes last and sees all forces.
+  add_fix({external_fix, "all", "external", "pf/callback", "1", "1"});
+  auto* fix = dynamic_cast<LAMMPS_NS::FixExternal*>(liggghts_->modify->find_fix_id(external_fix));
+  fix->set_callback(&Dem::call_back, this);
+}
+
+void Dem::call_back(void* self, long, int, int*, double**, double** external) {
+  const Dem& dem = *static_cast<Dem*>(self);
+  dem.add_forces_(dem.particles(), external);
+}
+
+int steps_per_window(double window, double time_step) {
+  const double steps = window / time_step;
+  const double nearest = std::round(steps);
+  if (nearest >= 1 && std::abs(steps - nearest) <= 1e-9 * nearest) return static_cast<int>(nearest);
+  const double below = std::floor(steps);
+  const std::string fitting =
+      below >= 1 ? fmt::format("{:.9g} or {:.9g}", below * time_step, (below + 1) * time_step)
+                 : fmt::format("{:.9g}", time_step);
+  throw InputError(fmt::format(
+      "coupling.window: {:.9g} s is not a whole number of DEM steps of {:.9g} s (the script's timestep); "
+      "the nearest windows that fit: {} s",
+      window, time_step, fitting));
+}
+
+}  // namespace demvof

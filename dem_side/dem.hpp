@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupler/grid/vec3.hpp"
+#include "dem_side/particle_arrays.hpp"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace demvof {
+
+/// The box that holds the particles, m, and the directions in which it wraps around.
+struct ParticleDomain {
+  Vec3 lower, upper;
+  std::array<bool, 3> periodic{};
+};
+
+/// The particles of all ranks in a few numbers.
+struct ParticleCensus {
+  long count = 0;
+  double min_diameter = 0, max_diameter = 0;  // m; 0 without particles
+  double solid_volume = 0;                    // m3
+};
+
+/// Owner of one LIGGGHTS instance that has read a user's script.
+///
+/// The script is an ordinary one and is left as it is. It must
+///   - use `units si` and spheres (`atom_style granular` or `sphere`),
+///   - set a `timestep` and integrate with `fix nve/sphere` (or `fix nve`),
+///   - give gravity, if any, by one `fix gravity`.
+/// Its own `run` commands are carried out first, without any fluid: a bed can settle there. The
+/// coupled run starts from the state in which the script ends. Relative paths in the script count
+/// from the folder it lies in: the constructor makes that the working folder.
+///
+/// Everything LIGGGHTS prints goes to the log file. When LIGGGHTS itself gives up, SolverStopped
+/// carries the error line of that file.
+class Dem {
+ public:
+  /// Collective over world. script, log: absolute paths.
+  /// Throws InputError when the script is missing or leaves out something of the above,
+  /// SolverStopped when LIGGGHTS refuses it.
+  Dem(MPI_Comm world, const std::filesystem::path& script, const std::filesystem::path& log);
+  ~Dem();
+  Dem(const Dem&) = delete;
+  Dem& operator=(const Dem&) = delete;
+
+  /// Computes the forces of the state reached by the script. Once, before the first run; whatever
+  /// adds forces is attached before.
+  void set_up();
+  /// Advances by a number of time steps.
+  void run(int steps);
+
+  ParticleArrays particles() const;
+  /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
+  /// that are frozen, moved by prescription or not integrated at all.
+  bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
+  /// True when fix gravity acts on a particle with this mask.
+  bool has_weight(int mask) const { return mask & weighed_; }
+
+  MPI_Comm world() const { return world_; }
+  double time_step() const;  // s
+  Vec3 gravity() const;      // m/s2
+  ParticleDomain domain() const;
+  ParticleCensus census() const;   // collective
+  bool inserts_particles() const;  // the script has an insertion that is not over yet
+  long inserted() const;           // particles that its insertions have put in so far, all ranks
+  bool has_outlet() const;         // the script takes particles out on purpose (fix massflow/mesh)
+
+  /// One value row per particle that goes with it from rank to rank; rows of new particles are 0.
+  /// Returned pointers: local particle -> row, valid until the next DEM step.
+  void add_particle_rows(const std::string& name, int width);
+  double* const* particle_rows(const std::string& name) const;
+
+  /// Calls add_forces in every DEM step, after all other forces are known; external: local particle
+  /// -> force to add, N, to be set for every particle. Called in set_up() too.
+  using AddForces = std::function<void(const ParticleArrays& particles, double* const* external)>;
+  void attach(AddForces add_forces);
+
+ private:
+  template <class Work>
+  void guarded(Work&& work);
+  void command(const std::string& line);
+  void add_fix(std::vector<std::string> words);
+  static void call_back(void* self, long step, int count, int* id, double** position, double** external);
+
+  MPI_Comm world_;
+  std::filesystem::path log_;
+  std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
+  AddForces add_forces_;
+  int integrated_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
+};
+
+/// Number of DEM steps in a window. Throws InputError, naming both values and the nearest windows
+/// that fit, when the window is no whole number >= 1 of steps (relative 1e-9).
+int steps_per_window(double window, double time_step);
+
+}  // namespace demvof

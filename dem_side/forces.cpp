@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/forces.hpp"
+
+#include <cassert>
+#include <type_traits>
+
+#include "coupler/closures/drag.hpp"
+#include "dem_side/implicit_drag.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr const char* rows_name = "demvof_fluid";
+
+// LIGGGHTS keeps and moves the rows; CarriedFluid names the doubles in one of them.
+CarriedFluid& carried_by(double* const* rows, int i) {
+  static_assert(std::is_standard_layout_v<CarriedFluid> && alignof(CarriedFluid) == alignof(double));
+  return *reinterpret_cast<CarriedFluid*>(rows[i]);
+}
+
+struct NoDrag {
+  double operator()(double, double, double, double) const { return 0; }
+};
+struct SchillerNaumann {
+  double operator()(double diameter, double density, double viscosity, double slip) const {
+    return schiller_naumann(diameter, density, viscosity, slip);
+  }
+};
+
+// Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
+// particle that touches nothing is zero or a last bit of its weight.
+bool touches(const Vec3& contact, const Vec3& weight) {
+  return dot(contact, contact) > 1e-20 * dot(weight, weight);
+}
+
+void store(double* components, const Vec3& vector) {
+  components[0] = vector.x;
+  components[1] = vector.y;
+  components[2] = vector.z;
+}
+
+}  // namespace
+
+FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters)
+    : dem_(dem), pressure_gradient_(parameters.pressure_gradient) {
+  dem_.add_particle_rows(rows_name, row_width<CarriedFluid>());
+  const auto attach = [this](auto drag) {
+    dem_.attach([this](const ParticleArrays& particles, double* const* external) {
+      add_forces<decltype(drag)>(particles, external);
+    });
+  };
+  switch (parameters.drag) {
+    case DragLaw::none:
+      attach(NoDrag{});
+      break;
+    case DragLaw::schiller_naumann:
+      attach(SchillerNaumann{});
+      break;
+  }
+}
+
+double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
+  return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
+}
+
+void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
+  const ParticleArrays particles = dem_.particles();
+  assert(static_cast<int>(fluid.size()) == particles.count);
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (int i = 0; i < particles.count; ++i) {
+    const FluidAtParticle& here = fluid[i];
+    const double beta = mean_drag_factor(carried_by(rows, i));  // of the window that left something over
+    CarriedFluid carried;
+    carried.velocity = here.velocity;
+    carried.density = here.density;
+    carried.viscosity = here.viscosity;
+    if (pressure_gradient_)
+      carried.pressure_force = -sphere_volume(particles.radius[i]) * here.pressure_gradient;
+    carried.left_over_force = beta / window * here.left_over_rate;
+    carried_by(rows, i) = carried;
+  }
+  window_ = window;
+  steps_ = 0;
+  force_sums_ = {};
+}
+
+template <class Drag>
+void FluidForces::add_forces(const ParticleArrays& particles, double* const* external) {
+  const Drag drag_law;
+  const double step = dem_.time_step();
+  const Vec3 gravity = dem_.gravity();
+  double* const* rows = dem_.particle_rows(rows_name);
+  WindowImpulses& sums = force_sums_;
+  for (int i = 0; i < particles.count; ++i) {
+    CarriedFluid& fluid = carried_by(rows, i);
+    const double mass = particles.mass[i];
+    const bool moves = dem_.moves(particles.mask[i]);
+    const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
+    const Vec3 contact = vec3(particles.force[i]) - weight;
+    fluid.contact_steps += touches(contact, weight);
+    if (moves) {
+      sums.contact += contact;
+      sums.gravity += weight;
+    }
+    store(external[i], {});
+    if (fluid.density == 0) continue;
+
+    const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
+    const double beta = drag_law(2 * particles.radius[i], fluid.density, fluid.viscosity, norm(slip));
+    const Vec3 steady = fluid.pressure_force + fluid.left_over_force;
+    const Vec3 drag = moves ? implicit_drag(beta, slip, contact + weight + steady, mass, step) : beta * slip;
+    fluid.drag_factor_sum += beta;
+    fluid.drag_impulse += step * drag;
+    sums.drag += drag;
+    sums.pressure += fluid.pressure_force;
+    sums.left_over += fluid.left_over_force;
+    if (moves)
+      store(external[i], drag + steady);
+    else
+      sums.held += drag + steady;
+  }
+  ++steps_;
+}
+
+std::vector<BulkParticles> FluidForces::contributions() const {
+  const ParticleArrays particles = dem_.particles();
+  std::vector<BulkParticles> contributions(particles.count);
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedFluid& fluid = carried_by(rows, i);
+    const double beta = mean_drag_factor(fluid);
+    const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? fluid.contact_steps / steps_ : 1;
+    const double response = drag_response(beta, particles.mass[i], window_, held);
+    BulkParticles& here = contributions[i];
+    here.solid_volume = sphere_volume(particles.radius[i]);
+    here.drag_impulse = fluid.drag_impulse;
+    here.drag_factor = beta;
+    here.drag_response = response;
+    here.drag_weighted_velocity = beta * vec3(particles.velocity[i]);
+    here.response_weighted_velocity = response * fluid.velocity;
+  }
+  return contributions;
+}
+
+const CarriedFluid& FluidForces::carried(int i) const {
+  return carried_by(dem_.particle_rows(rows_name), i);
+}
+
+WindowImpulses FluidForces::impulses() const {
+  WindowImpulses impulses = force_sums_;
+  for (Vec3* sum : {&impulses.drag, &impulses.pressure, &impulses.left_over, &impulses.held,
+                    &impulses.contact, &impulses.gravity})
+    *sum *= dem_.time_step();
+  return impulses;
+}
+
+long FluidForces::waiting_for_fluid() const {
+  const int count = dem_.particles().count;
+  double* const* rows = dem_.particle_rows(rows_name);
+  long waiting = 0;
+  for (int i = 0; i < count; ++i) waiting += carried_by(rows, i).density == 0;
+  return waiting;
+}
+
+}  // namespace demvof

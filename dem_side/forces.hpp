@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Forces of the fluid on the particles, in every DEM step:
+//
+//   F_drag     = beta (u - v), integrated implicitly (implicit_drag.hpp)
+//   F_pressure = -V grad p       grad p of the total pressure: buoyancy is inside it
+//   F_left     = M_i / window    impulse still owed from the exchange of the last window
+//
+// u, grad p, rho, mu and M_i are constant over a window, beta and v are not.
+//
+// Time levels. LIGGGHTS integrates by velocity Verlet. When it asks for forces at step n, it holds
+// x(n) and v(n-1/2), and the force found takes v to n+1/2. The momentum of these half steps,
+//
+//   P = sum of m v(n+1/2) = sum of m v(n) + (dt/2) f(n),
+//
+// therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
+// drag + pressure + left-over - held + contact + gravity, add up to its change to round-off.
+
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+#include "dem_side/dem.hpp"
+
+namespace demvof {
+
+/// The bulk fluid where a particle is, at the start of a window.
+struct FluidAtParticle {
+  Vec3 velocity;           // u, m/s
+  Vec3 pressure_gradient;  // Pa/m
+  double density = 0;      // rho, kg/m3; 0: there is no fluid here
+  double viscosity = 0;    // mu, Pa s
+  Vec3 left_over_rate;     // left-over impulse per drag factor, m
+};
+
+/// What a particle carries through a window, from rank to rank: what it feels and what it received.
+/// All zero for a particle that came into being during the window: no fluid acts on it yet.
+struct CarriedFluid {
+  Vec3 velocity;               // u, m/s
+  double density = 0;          // rho, kg/m3; 0: no fluid
+  double viscosity = 0;        // mu, Pa s
+  Vec3 pressure_force;         // N
+  Vec3 left_over_force;        // N
+  Vec3 drag_impulse;           // received in this window, N s
+  double drag_factor_sum = 0;  // sum of beta over the steps of this window, kg/s
+  double contact_steps = 0;    // steps of this window with a force other than gravity
+};
+
+/// Impulses of one window on this rank's particles, N s.
+struct WindowImpulses {
+  Vec3 drag, pressure, left_over;  // on all particles
+  Vec3 held;                       // the part of these that went to particles which no force moves
+  Vec3 contact, gravity;           // on the particles that forces move
+};
+
+class FluidForces {
+ public:
+  /// Attaches itself to the DEM, which must outlive it.
+  FluidForces(Dem& dem, const ForceParameters& parameters);
+  FluidForces(const FluidForces&) = delete;
+  FluidForces& operator=(const FluidForces&) = delete;
+
+  /// Starts a window with the fluid at each local particle. window: s.
+  void begin_window(const std::vector<FluidAtParticle>& fluid, double window);
+
+  /// What each local particle adds to the bulk grid at the end of the window, before weighting.
+  std::vector<BulkParticles> contributions() const;
+
+  /// State of local particle i.
+  const CarriedFluid& carried(int i) const;
+  WindowImpulses impulses() const;
+  /// Local particles that feel no fluid: new ones, and those where there is none.
+  long waiting_for_fluid() const;
+
+ private:
+  template <class Drag>
+  void add_forces(const ParticleArrays& particles, double* const* external);
+  double mean_drag_factor(const CarriedFluid& fluid) const;
+
+  Dem& dem_;
+  bool pressure_gradient_;
+  double window_ = 0;          // s; 0 before the first one
+  int steps_ = 0;              // done in this window
+  WindowImpulses force_sums_;  // N, summed over the steps of this window
+};
+
+}  // namespace demvof

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Drag on one particle, integrated exactly over a time step in which beta and the other forces are
+// constant:
+//
+//   m dv/dt = beta (u - v) + F      v(t + dt) = u + F/beta + (v(t) - u - F/beta) exp(-x),   x = beta dt/m
+//
+//   mean drag over the step = m (v(t + dt) - v(t))/dt - F = beta phi (u - v(t)) + (phi - 1) F
+//   phi = (1 - exp(-x))/x
+//
+// The particle never overshoots u + F/beta, however large x is, and beta = 0 needs no special case.
+
+#include <cmath>
+
+#include "coupler/grid/vec3.hpp"
+
+namespace demvof {
+
+/// (1 - exp(-x))/x for x >= 0; 1 at x = 0.
+inline double mean_decay(double x) {
+  if (x < 1e-2)
+    return 1 - x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6))));  // x^6/5040 left out
+  return -std::expm1(-x) / x;
+}
+
+/// Mean drag over a step, N. beta: kg/s; slip: u - v at its start, m/s; other: F, N; mass, kg; step, s.
+inline Vec3 implicit_drag(double beta, const Vec3& slip, const Vec3& other, double mass, double step) {
+  const double phi = mean_decay(beta * step / mass);
+  return beta * phi * slip + (phi - 1) * other;
+}
+
+/// beta_eff, kg/s: change of a particle's mean drag over a window with the fluid velocity. A free
+/// particle follows the fluid, (m/window)(1 - exp(-beta window/m)); one held by contacts does not, beta.
+/// contact_fraction: part of the window it spent in contact, 0 .. 1.
+inline double drag_response(double beta, double mass, double window, double contact_fraction) {
+  const double free = beta * mean_decay(beta * window / mass);
+  return contact_fraction * beta + (1 - contact_fraction) * free;
+}
+
+}  // namespace demvof

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "coupler/grid/vec3.hpp"
+
+namespace demvof {
+
+/// LIGGGHTS's own arrays of this rank's particles, not copied; valid until the next DEM step.
+struct ParticleArrays {
+  int count = 0;
+  double* const* position = nullptr;  // m
+  double* const* velocity = nullptr;  // m/s, at the same time as the position
+  double* const* force = nullptr;     // N; during a step: what has been added up so far
+  const double* radius = nullptr;     // m
+  const double* mass = nullptr;       // kg
+  const int* id = nullptr;            // unique over all ranks
+  const int* mask = nullptr;          // LIGGGHTS group bits
+};
+
+inline Vec3 vec3(const double* components) {
+  return {components[0], components[1], components[2]};
+}
+
+inline double sphere_volume(double radius) {
+  return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
+}
+
+}  // namespace demvof

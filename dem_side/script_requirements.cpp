@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/script_requirements.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "atom.h"
+#include "coupler/config/read_case.hpp"
+#include "domain.h"
+#include "fix.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+namespace demvof {
+namespace {
+
+bool starts_with(std::string_view text, std::string_view begin) {
+  return text.substr(0, begin.size()) == begin;
+}
+
+// What stands in the way of following a fix's particles; empty: nothing.
+std::string_view objection(std::string_view style) {
+  if (starts_with(style, "multisphere") || starts_with(style, "rigid") || style == "concave")
+    return "particles made of several spheres cannot be coupled yet; use single spheres";
+  if (starts_with(style, "couple/cfd")) return "dem_side exchanges with the fluid itself; remove the line";
+  if (style == "buoyancy")
+    return "the pressure gradient of the fluid already lifts the particles; remove the line, or unfix it "
+           "before the script ends";
+  if (starts_with(style, "nve/") && style != "nve/sphere" && style != "nve/noforce")
+    return "its particles do not move by the forces on them alone; use fix nve/sphere";
+  return {};
+}
+
+}  // namespace
+
+void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& script) {
+  std::string mistakes;
+  const auto mistake = [&](const std::string& text) {
+    mistakes += fmt::format("{}{}: {}", mistakes.empty() ? "" : "\n", script, text);
+  };
+
+  if (!liggghts.domain->box_exist)
+    throw InputError(
+        fmt::format("{}: no simulation box; the script needs create_box, read_data or read_restart", script));
+  if (std::string_view(liggghts.update->unit_style) != "si")
+    mistake(
+        fmt::format("units are '{}'; the coupled run is in SI units: units si", liggghts.update->unit_style));
+  const LAMMPS_NS::Atom& atom = *liggghts.atom;
+  if (!atom.radius_flag || !atom.rmass_flag || atom.superquadric_flag)
+    mistake(
+        fmt::format("atom_style is '{}'; the particles must be spheres with a radius and a mass: "
+                    "atom_style granular",
+                    atom.atom_style));
+  if (!liggghts.update->timestep_set) mistake("no timestep; add e.g. 'timestep 1e-5' (s)");
+  if (liggghts.domain->triclinic) mistake("the box is skewed (triclinic); it must be rectangular");
+
+  int integrators = 0, gravities = 0;
+  for (int i = 0; i < liggghts.modify->nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
+    const std::string_view style = fix.style;
+    integrators += style == "nve/sphere" || style == "nve";
+    gravities += style == "gravity";
+    if (const auto reason = objection(style); !reason.empty())
+      mistake(fmt::format("fix {} {}: {}", fix.id, style, reason));
+  }
+  if (integrators == 0) mistake("nothing moves the particles; add 'fix move_them all nve/sphere'");
+  if (gravities > 1) mistake(fmt::format("{} fixes of style gravity; there must be at most one", gravities));
+  if (!mistakes.empty()) throw InputError(mistakes);
+}
+
+}  // namespace demvof

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The real particle side in a fluid that a test makes up: drag, pressure gradient and left-over
+// impulse against exact solutions, and the book-keeping of impulses.
+
+#include <cmath>
+
+#include "coupler/closures/drag.hpp"
+#include "dem_side/forces.hpp"
+#include "tests/mock/dem_fixture.hpp"
+
+namespace demvof_test {
+namespace {
+
+using demvof::CarriedFluid;
+using demvof::FluidAtParticle;
+using demvof::FluidForces;
+using demvof::ForceParameters;
+using demvof::WindowImpulses;
+
+FluidAtParticle still_water() {
+  return {{}, {0, 0, -1000 * 9.81}, 1000, 1e-3, {}};
+}
+
+// Inertia so small that drag is Stokes drag to round-off: v' = (u - v)/tau.
+FluidAtParticle syrup(double relaxation_time, const Vec3& velocity) {
+  const double viscosity = bead_mass / (3 * pi * bead_diameter * relaxation_time);
+  return {velocity, {}, 1e-30, viscosity, {}};
+}
+
+// One window of the same fluid everywhere.
+void window(demvof::Dem& dem, FluidForces& forces, const FluidAtParticle& fluid, int steps) {
+  forces.begin_window(std::vector<FluidAtParticle>(dem.particles().count, fluid), steps * dem.time_step());
+  dem.run(steps);
+}
+
+Vec3 half_step_momentum(const demvof::Dem& dem) {
+  const auto particles = dem.particles();
+  Vec3 momentum;
+  for (int i = 0; i < particles.count; ++i)
+    if (dem.moves(particles.mask[i]))
+      momentum += particles.mass[i] * demvof::vec3(particles.velocity[i]) +
+                  0.5 * dem.time_step() * demvof::vec3(particles.force[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &momentum.x, 3, MPI_DOUBLE, MPI_SUM, dem.world());
+  return momentum;
+}
+
+WindowImpulses over_ranks(WindowImpulses impulses, MPI_Comm world) {
+  MPI_Allreduce(MPI_IN_PLACE, &impulses.drag.x, 18, MPI_DOUBLE, MPI_SUM, world);
+  return impulses;
+}
+
+// Vertical velocity of the only particle, on all ranks.
+double falling_speed(const demvof::Dem& dem) {
+  const auto particles = dem.particles();
+  double velocity = particles.count ? particles.velocity[0][2] : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &velocity, 1, MPI_DOUBLE, MPI_SUM, dem.world());
+  return velocity;
+}
+
+TEST(DemForces, FollowTheExactLinearRelaxationForAnyStiffness) {
+  const double step = 1e-5;
+  for (const double steps_per_relaxation : {1e-3, 0.1, 1.0, 10.0, 1e3}) {
+    Scene scene("relaxation", empty_box(step) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);
+    FluidForces forces(*scene.dem, ForceParameters{});
+    scene.dem->set_up();
+    const Vec3 wind{0.2, 0, -0.1};
+    const double relaxation = steps_per_relaxation * step;
+    for (int n = 1; n <= 4; ++n) {
+      window(*scene.dem, forces, syrup(relaxation, wind), 5);
+      const Vec3 half_step_velocity = half_step_momentum(*scene.dem) / bead_mass;
+      const double exact = 1 - std::exp(-n * 5 * step / relaxation);
+      EXPECT_NEAR(half_step_velocity.x, wind.x * exact, 1e-12) << steps_per_relaxation;
+      EXPECT_NEAR(half_step_velocity.z, wind.z * exact, 1e-12) << steps_per_relaxation;
+    }
+  }
+}
+
+// With a constant force F beside the drag the particle ends at u + F/beta, however stiff the drag is.
+TEST(DemForces, NeverOvershootTheEquilibriumOfDragAndGravity) {
+  const double step = 1e-5;
+  for (const double relaxation : {1e-8, 1e-5, 1e-3}) {
+    Scene scene("equilibrium",
+                empty_box(step) + bead({0.05, 0.05, 0.2}) + bead_properties() + gravity + integrate);
+    FluidForces forces(*scene.dem, ForceParameters{});
+    scene.dem->set_up();
+    const double terminal = -9.81 * relaxation;
+    for (int n = 0; n < 40; ++n) {
+      window(*scene.dem, forces, syrup(relaxation, {}), 25);
+      const double velocity = half_step_momentum(*scene.dem).z / bead_mass;
+      // The half step of set_up() saw no drag: 0.5 step g at most above the terminal speed.
+      EXPECT_GE(velocity, terminal - 1e-12 - 0.5 * step * 9.81 * std::exp(-25 * (n + 1) * step / relaxation));
+      EXPECT_LE(velocity, 0);
+    }
+    EXPECT_NEAR(half_step_momentum(*scene.dem).z / bead_mass / terminal, 1, 1e-3);
+  }
+}
+
+// The bead of the dam break sinks in still water, pressure gradient included, at 0.3430 m/s.
+TEST(DemForces, ReachTheTerminalVelocityInStillWater) {
+  Scene scene("terminal",
+              empty_box(1e-5) + bead({0.05, 0.05, 0.35}) + bead_properties() + gravity + integrate);
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  for (int n = 0; n < 100; ++n) window(*scene.dem, forces, still_water(), 500);  // 0.5 s
+  EXPECT_NEAR(falling_speed(*scene.dem), -0.3430, 0.3430e-3);
+}
+
+// Against an independent integration of v' with a step 100 times smaller than the DEM's: the nonlinear
+// drag is lagged by one step, so that the error falls with the DEM step at first order.
+TEST(DemForces, ConvergeToTheNonlinearEquationOfMotion) {
+  const double end = 0.02;
+  const auto acceleration = [](double v) {
+    const double beta = demvof::schiller_naumann(bead_diameter, 1000, 1e-3, std::abs(v));
+    return -9.81 * (1 - 1000 / bead_density) - beta * v / bead_mass;
+  };
+  double exact = 0;
+  const double fine = 1e-7;
+  for (int n = 0; n < std::lround(end / fine); ++n) {
+    const double middle = exact + 0.5 * fine * acceleration(exact);
+    exact += fine * acceleration(middle);
+  }
+  std::vector<double> errors;
+  for (const double step : {8e-4, 4e-4, 2e-4}) {
+    Scene scene("nonlinear",
+                empty_box(step) + bead({0.05, 0.05, 0.35}) + bead_properties() + gravity + integrate);
+    FluidForces forces(*scene.dem, ForceParameters{});
+    scene.dem->set_up();
+    window(*scene.dem, forces, still_water(), static_cast<int>(std::lround(end / step)));
+    errors.push_back(std::abs(falling_speed(*scene.dem) - exact));
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 1, 0.15);
+  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 1, 0.1);
+  EXPECT_LT(errors[2] / std::abs(exact), 0.01);
+}
+
+// Beads that fall on one another and on a wall, in moving water, with left-over impulses: what LIGGGHTS
+// did to the momentum is what the book-keeping says, window by window, and a cell's drag is the sum of
+// what its particles received.
+TEST(DemForces, AccountForEveryImpulse) {
+  std::string script = empty_box(1e-5);
+  for (int i = 0; i < 5; ++i)
+    script += bead({0.02 + 0.0135 * i, 0.05, 0.0014}) + bead({0.0201 + 0.0135 * i, 0.0501, 0.0048});
+  script += bead_properties() + gravity +
+            "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n" +
+            integrate;
+  Scene scene("impulses", script);
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  bool touched = false;
+  for (int n = 0; n < 20; ++n) {
+    FluidAtParticle fluid = still_water();
+    fluid.velocity = {0.3 * std::sin(n), 0.1, 0.2 * std::cos(3 * n)};
+    fluid.left_over_rate = {1e-4, -1e-5 * n, 5e-5};
+    const Vec3 before = half_step_momentum(*scene.dem);
+    window(*scene.dem, forces, fluid, 100);
+    const Vec3 change = half_step_momentum(*scene.dem) - before;
+    const WindowImpulses impulses = over_ranks(forces.impulses(), scene.dem->world());
+    const Vec3 booked =
+        impulses.drag + impulses.pressure + impulses.left_over + impulses.contact + impulses.gravity;
+    EXPECT_LT(norm(change - booked), 1e-12 * norm(impulses.gravity)) << n;
+    touched = touched || norm(impulses.contact) > 1e-3 * norm(impulses.gravity);
+
+    Vec3 received;
+    for (const auto& particle : forces.contributions()) received += particle.drag_impulse;
+    MPI_Allreduce(MPI_IN_PLACE, &received.x, 3, MPI_DOUBLE, MPI_SUM, scene.dem->world());
+    EXPECT_LT(norm(received - impulses.drag), 1e-12 * norm(impulses.drag)) << n;
+  }
+  EXPECT_TRUE(touched);
+}
+
+// The impulse of the last window that is still owed arrives in full: rate times beta of that window.
+TEST(DemForces, HandOverTheLeftOverImpulse) {
+  Scene scene("left_over", empty_box(1e-5) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  FluidAtParticle fluid = syrup(1e-3, {0.1, 0, 0});
+  window(*scene.dem, forces, fluid, 20);
+  fluid.left_over_rate = {0, 3e-5, 0};
+  window(*scene.dem, forces, fluid, 20);
+  EXPECT_NEAR(over_ranks(forces.impulses(), scene.dem->world()).left_over.y / (3e-5 * bead_mass / 1e-3), 1,
+              1e-12);
+}
+
+// A frozen particle takes drag without moving, and answers to the fluid with all of beta; a free one
+// follows it. A particle on the floor counts as held for the steps in which it touches.
+TEST(DemForces, TellFrozenRestingAndFreeParticlesApart) {
+  Scene scene(
+      "roles",
+      empty_box(1e-5) + bead({0.02, 0.05, 0.2}) + bead({0.05, 0.05, 0.00135}) + bead({0.08, 0.05, 0.2}) +
+          bead_properties() + gravity +
+          "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n"
+          "region left block 0 0.03 0 0.1 0 0.4 units box\ngroup left region left\n"
+          "fix hold left freeze\n" +
+          integrate + "run 500\n");
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const double relaxation = 1e-4;
+  window(*scene.dem, forces, syrup(relaxation, {0, 0, 1e-4}), 20);
+  const double beta = bead_mass / relaxation;
+  const auto particles = scene.dem->particles();
+  const auto rows = forces.contributions();
+  for (int i = 0; i < particles.count; ++i) {
+    const double x = particles.position[i][0];
+    EXPECT_NEAR(rows[i].drag_factor / beta, 1, 1e-12);
+    const double free_response = (1 - std::exp(-2.0)) / 2;  // window = 2 relaxation times
+    EXPECT_NEAR(rows[i].drag_response / beta, x < 0.06 ? 1 : free_response, 1e-9) << x;
+    if (x < 0.03) {
+      EXPECT_EQ(particles.position[i][2], 0.2);
+      EXPECT_EQ(particles.velocity[i][2], 0);
+      EXPECT_NEAR(rows[i].drag_impulse.z / (beta * 1e-4 * 2e-4), 1, 1e-12);
+    }
+  }
+}
+
+// A particle that comes into being during a window waits for the next one without any fluid force.
+TEST(DemForces, LetInsertedParticlesWaitForTheNextWindow) {
+  Scene scene(
+      "insertion",
+      empty_box(1e-5) + bead({0.05, 0.05, 0.3}) + bead_properties() + integrate +
+          "fix pts all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant "
+          "0.00135\n"
+          "fix pdd all particledistribution/discrete 32452843 1 pts 1.0\n"
+          "region low block 0.01 0.09 0.01 0.09 0.01 0.1 units box\n"
+          "fix ins all insert/rate/region seed 49979687 distributiontemplate pdd nparticles 6 particlerate "
+          "30000 "
+          "start 5 insert_every 10 overlapcheck yes all_in yes region low\n");
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const auto waiting = [&] {
+    long count = forces.waiting_for_fluid();
+    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_LONG, MPI_SUM, scene.dem->world());
+    return count;
+  };
+  const long at_start = scene.dem->census().count;
+  EXPECT_TRUE(scene.dem->inserts_particles());
+  window(*scene.dem, forces, syrup(1e-3, {1, 0, 0}), 10);
+  const long inserted = scene.dem->census().count - at_start;
+  EXPECT_GT(inserted, 0);
+  EXPECT_EQ(scene.dem->inserted(), inserted);
+  EXPECT_EQ(waiting(), inserted);
+  const auto particles = scene.dem->particles();
+  for (int i = 0; i < particles.count; ++i)
+    if (forces.carried(i).density == 0) {
+      EXPECT_EQ(particles.velocity[i][0], 0);
+    }
+  window(*scene.dem, forces, syrup(1e-3, {1, 0, 0}), 1);
+  EXPECT_EQ(waiting(), scene.dem->census().count - at_start - inserted);
+}
+
+}  // namespace
+}  // namespace demvof_test
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  int failed = RUN_ALL_TESTS();
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Finalize();
+  return failed;
+}
