@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The series that ParaView opens, written by one to three ranks and read back with VTK.
+#include "coupler/output/vtk_series.hpp"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPPolyDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace demvof {
+namespace {
+
+int rank_, ranks_;
+
+/// A fresh folder that all ranks agree on.
+fs::path folder(const std::string& name) {
+  const fs::path path = fs::path("vtk_series_" + std::to_string(ranks_)) / name;
+  if (rank_ == 0) {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  return path;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+// Values that differ in every component, so that no mix-up goes unseen.
+Vec3 vector_of(std::int64_t id, double member) {
+  return {id + 0.1 * member, -2.0 * id, member};
+}
+
+/// Particle ids rank, rank + ranks, ...: 10 in all; the last rank has none when there are three.
+ParticleFrame frame_of_this_rank() {
+  const int holders = ranks_ == 3 ? 2 : ranks_;
+  ParticleFrame frame;
+  for (std::int64_t id = rank_; id < 10 && rank_ < holders; id += holders) {
+    frame.id.push_back(id);
+    frame.position.push_back(vector_of(id, 1));
+    frame.velocity.push_back(vector_of(id, 2));
+    frame.radius.push_back(1e-3 * (id + 1));
+    frame.drag_force.push_back(vector_of(id, 3));
+    frame.pressure_force.push_back(vector_of(id, 4));
+    frame.contact_force.push_back(vector_of(id, 5));
+  }
+  return frame;
+}
+
+vtkSmartPointer<vtkPolyData> read_particles(const fs::path& path) {
+  vtkSmartPointer<vtkXMLReader> reader;
+  if (path.extension() == ".pvtp")
+    reader = vtkSmartPointer<vtkXMLPPolyDataReader>::New();
+  else
+    reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return vtkPolyData::SafeDownCast(reader->GetOutputAsDataSet());
+}
+
+void expect_tuple(vtkDataArray* array, vtkIdType i, const Vec3& expected) {
+  ASSERT_TRUE(array);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(array->GetComponent(i, axis), expected[axis]);
+}
+
+TEST(ParticleSeries, EveryParticleReadsBackOnce) {
+  const fs::path out = folder("particles_read_back");
+  ParticleSeries series(MPI_COMM_WORLD, out);
+  series.write(0.25, frame_of_this_rank());
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto data =
+      read_particles(out / "particles" / (ranks_ == 1 ? "particles_000000.vtp" : "particles_000000.pvtp"));
+  ASSERT_TRUE(data);
+  ASSERT_EQ(data->GetNumberOfPoints(), 10);
+  EXPECT_EQ(data->GetNumberOfVerts(), 10);  // without them ParaView shows nothing
+  vtkPointData* arrays = data->GetPointData();
+  std::map<std::int64_t, int> seen;
+  for (vtkIdType i = 0; i < 10; ++i) {
+    const auto id = static_cast<std::int64_t>(arrays->GetArray("id")->GetComponent(i, 0));
+    ++seen[id];
+    EXPECT_EQ(arrays->GetArray("radius")->GetComponent(i, 0), 1e-3 * (id + 1));
+    expect_tuple(arrays->GetArray("velocity"), i, vector_of(id, 2));
+    expect_tuple(arrays->GetArray("drag_force"), i, vector_of(id, 3));
+    expect_tuple(arrays->GetArray("pressure_force"), i, vector_of(id, 4));
+    expect_tuple(arrays->GetArray("contact_force"), i, vector_of(id, 5));
+    double position[3];
+    data->GetPoint(i, position);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(position[axis], vector_of(id, 1)[axis]);
+  }
+  EXPECT_EQ(seen.size(), 10u);
+}
+
+TEST(ParticleSeries, TheIndexListsEveryOutputWithItsTime) {
+  const fs::path out = folder("particles_index");
+  ParticleSeries series(MPI_COMM_WORLD, out);
+  for (const double time : {0.0, 0.02, 0.04}) {
+    series.write(time, frame_of_this_rank());
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+  const std::string index = text_of(out / "particles" / "particles.pvd");
+  const std::string kind = ranks_ == 1 ? ".vtp" : ".pvtp";
+  for (const auto& [time, number] : {std::pair{"0", "000000"}, {"0.02", "000001"}, {"0.04", "000002"}}) {
+    const std::string file = std::string("particles_") + number + kind;
+    EXPECT_NE(index.find(std::string("timestep=\"") + time + "\" file=\"" + file + "\""), std::string::npos)
+        << index;
+    EXPECT_TRUE(fs::exists(out / "particles" / file));
+  }
+}
+
+TEST(ParticleSeries, AnEarlierRunLeavesNothing) {
+  const fs::path out = folder("particles_again");
+  {
+    ParticleSeries series(MPI_COMM_WORLD, out);
+    for (int n = 0; n < 3; ++n) series.write(n, frame_of_this_rank());
+  }
+  ParticleSeries series(MPI_COMM_WORLD, out);
+  series.write(0, frame_of_this_rank());
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto files = std::distance(fs::directory_iterator(out / "particles"), fs::directory_iterator());
+  EXPECT_EQ(files, ranks_ == 1 ? 2 : ranks_ + 2);  // pieces, the file over them, the index
+}
+
+TEST(ParticleSeries, AFrameThatIsOutOfStepIsAnErrorOnAllRanks) {
+  ParticleSeries series(MPI_COMM_WORLD, folder("particles_broken"));
+  ParticleFrame frame = frame_of_this_rank();
+  if (rank_ == 0) frame.radius.pop_back();
+  EXPECT_THROW(series.write(0, frame), std::runtime_error);
+}
+
+TEST(BulkSeries, CellsReadBackInTheirPlaces) {
+  const fs::path out = folder("bulk_read_back");
+  const BulkGrid grid({-0.1, 0, 0.5}, {0.3, 0.3, 0.7}, {4, 3, 2});
+  const BulkPartition partition(grid.cell_count(), ranks_);
+  CellValues<BulkFrame> active;  // every third cell
+  for (CellId cell = partition.begin(rank_); cell < partition.end(rank_); ++cell)
+    if (cell % 3 == 0) {
+      active.cells.push_back(cell);
+      active.values.push_back(
+          {0.4 + 0.01 * cell, vector_of(cell, 1), vector_of(cell, 2), vector_of(cell, 3)});
+    }
+  BulkSeries series(MPI_COMM_WORLD, grid, out);
+  series.write(0.5, active);
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  vtkNew<vtkXMLImageDataReader> reader;
+  reader->SetFileName((out / "bulk" / "bulk_000000.vti").c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  ASSERT_EQ(image->GetNumberOfCells(), 24);
+  vtkCellData* arrays = image->GetCellData();
+  for (CellId cell = 0; cell < 24; ++cell) {
+    // VTK's own idea of where the cell is.
+    const Vec3 centre = grid.cell_centre(grid.ijk(cell));
+    double point[3] = {centre.x, centre.y, centre.z}, local[3], weights[8];
+    int sub;
+    const vtkIdType found = image->FindCell(point, nullptr, 0, 1e-12, sub, local, weights);
+    ASSERT_GE(found, 0);
+    const bool is_active = cell % 3 == 0;
+    EXPECT_EQ(arrays->GetArray("active")->GetComponent(found, 0), is_active);
+    EXPECT_EQ(arrays->GetArray("void_fraction")->GetComponent(found, 0), is_active ? 0.4 + 0.01 * cell : 1);
+    expect_tuple(arrays->GetArray("fluid_velocity"), found, is_active ? vector_of(cell, 1) : Vec3{});
+    expect_tuple(arrays->GetArray("pressure_gradient"), found, is_active ? vector_of(cell, 2) : Vec3{});
+    expect_tuple(arrays->GetArray("drag"), found, is_active ? vector_of(cell, 3) : Vec3{});
+  }
+  EXPECT_NE(text_of(out / "bulk" / "bulk.pvd").find("timestep=\"0.5\" file=\"bulk_000000.vti\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace demvof
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  MPI_Comm_rank(MPI_COMM_WORLD, &demvof::rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &demvof::ranks_);
+  testing::InitGoogleTest(&argc, argv);
+  const int failed = RUN_ALL_TESTS();
+  MPI_Finalize();
+  return failed;
+}
