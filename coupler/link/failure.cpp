@@ -47,8 +47,7 @@ void report_failure(int exit_code, const std::string& message, bool quiet) {
 
 void end_now(int exit_code) {
   std::cout.flush();
-  std::fflush(stdout);
-  std::fflush(stderr);
+  std::fflush(nullptr);
   _exit(exit_code);
 }
 

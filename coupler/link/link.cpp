@@ -173,12 +173,14 @@ std::string Link::from_rank_0(std::string text) {
 }
 
 bool Link::agree_to_continue(Continue wish) {
-  int gravest = static_cast<int>(wish == Continue::run && stop_requested() ? Continue::stop_requested : wish);
+  if (wish == Continue::run && stop_requested()) wish = Continue::stop_requested;
+  int gravest[] = {static_cast<int>(wish), in_a_hurry()};
   MPI_Request request;
-  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, &gravest, 1, MPI_INT, MPI_MAX, world_.pair().both, &request),
+  check_mpi(MPI_Iallreduce(MPI_IN_PLACE, gravest, 2, MPI_INT, MPI_MAX, world_.pair().both, &request),
             "MPI_Iallreduce");
   wait_for(request, "all ranks of both sides to end the window");
-  agreement_ = static_cast<Continue>(gravest);
+  agreement_ = static_cast<Continue>(gravest[0]);
+  world_.pair().in_a_hurry = gravest[1] != 0;
   return agreement_ == Continue::run;
 }
 

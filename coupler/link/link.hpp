@@ -84,7 +84,8 @@ class Link {
 
   /// Tells every partner rank that this side fails, without waiting for an answer, from any rank.
   void cry_for_help(const std::string& reason) noexcept { world_.cry_for_help(reason); }
-  /// The orderly end of the link, when both sides are done. Afterwards either side may end.
+  /// The orderly end of the link, when both sides are done and have written what they want to keep:
+  /// afterwards either may end, and a launcher in a hurry kills the other as soon as one has.
   void close();
 
   const LinkStatistics& statistics() const { return statistics_; }

@@ -17,6 +17,7 @@ namespace demvof {
 namespace {
 
 constexpr double seconds_for_the_partner = 1;  // to hear of a failure and write its own results
+constexpr double seconds_to_linger = 0.3;      // for the others to find the first death, not ours
 constexpr double seconds_for_the_crier = 3;    // to end first, so that mpirun reports its exit code
 
 OwnWorld* current = nullptr;
@@ -124,14 +125,20 @@ void OwnWorld::fail(int exit_code, const std::string& message) const {
   cry_for_help(message);
   // All ranks of a side mostly fail with the same words: rank 0 says them, and the others wait for it.
   report_failure(exit_code, message, rank_ != 0 && heard_the_same(message));
-  const bool fault_is_here = exit_code != exit_partner_lost;
   const auto begin = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
   pair_->alarm->hold_on(seconds_for_the_partner);
-  const double grace = fault_is_here ? seconds_for_the_partner : seconds_for_the_crier;
-  while (std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(grace)) {
-    if (!fault_is_here && (pair_->watch->someone_lost() || stop_requested())) break;
-    std::this_thread::sleep_for(5ms);
+  if (exit_code == exit_partner_lost) {
+    const auto crier_ended = [&] { return pair_->watch->someone_lost() || stop_requested(); };
+    while (elapsed() < (crier_ended() ? seconds_to_linger : seconds_for_the_crier))
+      std::this_thread::sleep_for(5ms);
+  } else {
+    while (elapsed() < seconds_for_the_partner) std::this_thread::sleep_for(5ms);
   }
+  // Not MPI_Abort: it kills a partner that is still writing its results, and hangs when mpirun is
+  // already at it. mpirun treats an exit without MPI_Finalize as an abort, but leaves a second.
   end_now(exit_code);
 }
 
@@ -154,7 +161,11 @@ void OwnWorld::finalise() {
   if (end_announced()) return;
   pair_->watch->stand_down();
   announce_end();
-  check_mpi(PMPI_Finalize(), "MPI_Finalize");
+  // After SIGTERM mpirun does not take part in finalising; it kills whoever waits for it.
+  if (pair_->in_a_hurry)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // for the others to see the link closed
+  else
+    check_mpi(PMPI_Finalize(), "MPI_Finalize");
 }
 
 }  // namespace demvof

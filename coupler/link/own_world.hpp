@@ -51,8 +51,8 @@ class OwnWorld {
   /// Ends this process before its time: says why (message), speaks the last words (failure.hpp), lets
   /// the partner hear of it, and exits with the code, without destructors. From the main thread.
   [[noreturn]] void fail(int exit_code, const std::string& message) const;
-  /// The orderly end, collective over both programs: finalises MPI. What a library does about the end
-  /// of MPI later is without effect.
+  /// The orderly end, collective over both programs: finalises MPI, unless the pair is in a hurry. What
+  /// a library does about the end of MPI later is without effect.
   void finalise();
 
   /// What the two programs share; for the link.
@@ -62,6 +62,7 @@ class OwnWorld {
     std::vector<Process> processes;    // by rank in both
     std::unique_ptr<Alarm> alarm;
     std::unique_ptr<Watch> watch;
+    bool in_a_hurry = false;  // a rank got SIGTERM (signals.hpp), as both sides agreed
   };
   Pair& pair() const { return *pair_; }
 

@@ -3,15 +3,19 @@
 
 #include <signal.h>
 
+#include <atomic>
+
 #include "coupler/link/watch.hpp"
 
 namespace demvof {
 namespace {
 
-volatile sig_atomic_t requested = 0;
+std::atomic<bool> requested{false}, hurry{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // fit for a signal handler
 
-extern "C" void demvof_on_stop_signal(int) {
-  requested = 1;
+extern "C" void demvof_on_stop_signal(int number) {
+  requested = true;
+  if (number == SIGTERM) hurry = true;
   Watch::look_now();
 }
 
@@ -28,7 +32,11 @@ void install_signal_handlers() {
 }
 
 bool stop_requested() {
-  return requested != 0;
+  return requested;
+}
+
+bool in_a_hurry() {
+  return hurry;
 }
 
 }  // namespace demvof

@@ -7,12 +7,17 @@ namespace demvof {
 /// their own while they open a case: call this again once the solver is open. A second SIGINT or
 /// SIGTERM is left to the system's default and ends the process at once.
 ///
-/// mpirun answers Ctrl-C and its own SIGTERM by sending SIGTERM to all ranks and SIGKILL one second
-/// later (--mca odls_base_sigkill_timeout); it passes SIGUSR1 on. The death of any rank makes it do
-/// the same, so SIGTERM also wakes the watch (watch.hpp), which tells the two cases apart.
+/// What Open MPI's mpirun 4.1 does, as observed: it passes SIGUSR1 on to all ranks. On Ctrl-C, on
+/// SIGTERM and when any rank dies it sends SIGTERM to the ranks, and SIGKILL
+/// odls_base_sigkill_timeout (1 s) later or as soon as one of them has ended, and it serves nobody's
+/// MPI_Finalize meanwhile. So SIGUSR1 is the way to stop a pair in good order; after SIGTERM both
+/// sides end their window and leave without finalising MPI; and SIGTERM wakes the watch (watch.hpp),
+/// which knows whether somebody has died.
 void install_signal_handlers();
 
 /// True once one of the signals has come. The link carries it to every rank of both sides.
 bool stop_requested();
+/// True once SIGTERM has come: there may be less than a second left.
+bool in_a_hurry();
 
 }  // namespace demvof

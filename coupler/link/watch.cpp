@@ -16,7 +16,8 @@ namespace {
 
 constexpr long turn_ms = 200;         // between two looks at the processes
 constexpr long main_thread_ms = 300;  // for a waiting main thread to report a loss itself
-constexpr long report_ms = 6000;      // for the main thread to report and end the process
+constexpr long linger_ms = 300;   // for the others to find the first death, not ours, and to have their say
+constexpr long report_ms = 6000;  // for the main thread to report and end the process
 
 struct Bell {
   Bell() { sem_init(&semaphore, 0, 0); }
@@ -100,6 +101,7 @@ void Watch::handle_loss(const Process& ended) {
   if (quit_ || standing_down_) return;
   if (claim_failure()) {
     report_failure(exit_partner_lost, loss_);
+    pause(linger_ms);
     end_now(exit_partner_lost);
   }
   pause(report_ms);
