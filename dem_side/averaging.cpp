@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "coupler/link/mpi_check.hpp"
+
 namespace demvof {
 namespace {
 
@@ -40,7 +42,15 @@ const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& partic
   std::vector<BulkParticles> touched(weights_.cells.size());
   demvof::deposit(weights_, rows(contributions), row_width<BulkParticles>(), rows(touched));
   deposited_ = touched_->sum_to_owners(touched);
+  relief_ = limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, deposited_);
   return deposited_;
+}
+
+double Averaging::largest_solid_fraction() const {
+  double largest = 0;
+  for (const BulkParticles& cell : deposited_.values) largest = std::max(largest, cell.solid_volume);
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
+  return largest / grid_.cell_volume();
 }
 
 std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owned) {

@@ -10,6 +10,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/touched_cells.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/limit_solid.hpp"
 #include "dem_side/forces.hpp"
 #include "dem_side/particle_arrays.hpp"
 
@@ -22,7 +23,8 @@ class Averaging {
   Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
             const AveragingParameters& parameters);
 
-  /// Sums the particles' contributions into the bulk cells they reach. Collective.
+  /// Sums the particles' contributions into the bulk cells they reach; what is above the largest
+  /// solid fraction of a cell moves to its neighbours. Collective.
   /// contributions: one per local particle. Returned: this rank's cells.
   const CellValues<BulkParticles>& deposit(const ParticleArrays& particles,
                                            const std::vector<BulkParticles>& contributions);
@@ -33,6 +35,10 @@ class Averaging {
   std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned);
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
+  /// What had to be moved out of full cells in the last deposit.
+  const SolidRelief& relief() const { return relief_; }
+  /// Largest solid fraction of a bulk cell in the last deposit, -. Collective.
+  double largest_solid_fraction() const;
   /// Left-over impulse that came for cells without drag in the last sample, this rank, N s: given
   /// to nobody.
   const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
@@ -45,6 +51,7 @@ class Averaging {
   KernelWeights weights_;
   std::optional<TouchedCells> touched_;
   CellValues<BulkParticles> deposited_;
+  SolidRelief relief_;
   Vec3 unplaced_left_over_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <limits>
 
@@ -75,10 +76,12 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log) : world_(w
   });
 }
 
-Dem::~Dem() = default;
-
 // A LIGGGHTS that has given up is in no state to be taken down, and its destructor may talk to ranks
-// that no longer listen: the instance is left to the end of the process.
+// that no longer listen: when something failed, the instance is left to the end of the process.
+Dem::~Dem() {
+  if (std::uncaught_exceptions() > 0) liggghts_.release();
+}
+
 template <class Work>
 void Dem::guarded(Work&& work) {
   try {
@@ -86,9 +89,6 @@ void Dem::guarded(Work&& work) {
   } catch (const SolverStopped&) {
     liggghts_.release();
     throw SolverStopped("LIGGGHTS stopped: " + error_line(log_));
-  } catch (...) {
-    liggghts_.release();
-    throw;
   }
 }
 
@@ -189,6 +189,10 @@ void Dem::attach(AddForces add_forces) {
   add_fix({external_fix, "all", "external", "pf/callback", "1", "1"});
   auto* fix = dynamic_cast<LAMMPS_NS::FixExternal*>(liggghts_->modify->find_fix_id(external_fix));
   fix->set_callback(&Dem::call_back, this);
+}
+
+double* const* Dem::added_forces() const {
+  return dynamic_cast<LAMMPS_NS::FixExternal*>(liggghts_->modify->find_fix_id(external_fix))->fexternal;
 }
 
 void Dem::call_back(void* self, long, int, int*, double**, double** external) {

@@ -85,6 +85,8 @@ class Dem {
   /// -> force to add, N, to be set for every particle. Called in set_up() too.
   using AddForces = std::function<void(const ParticleArrays& particles, double* const* external)>;
   void attach(AddForces add_forces);
+  /// What the last step's call has added to each local particle, N.
+  double* const* added_forces() const;
 
  private:
   template <class Work>

@@ -7,6 +7,7 @@
 #include "coupler/closures/drag.hpp"
 #include "dem_side/forces.hpp"
 #include "tests/mock/dem_fixture.hpp"
+#include "tests/support/mpi_main.hpp"
 
 namespace demvof_test {
 namespace {
@@ -249,12 +250,3 @@ TEST(DemForces, LetInsertedParticlesWaitForTheNextWindow) {
 
 }  // namespace
 }  // namespace demvof_test
-
-int main(int argc, char** argv) {
-  MPI_Init(&argc, &argv);
-  testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  MPI_Finalize();
-  return failed;
-}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/output.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace demvof {
+namespace {
+
+ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double window) {
+  const ParticleArrays particles = dem.particles();
+  double* const* fluid_force = dem.added_forces();
+  const Vec3 gravity = dem.gravity();
+  ParticleFrame frame;
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedFluid& fluid = forces.carried(i);
+    Vec3 contact;
+    if (dem.moves(particles.mask[i])) {
+      contact = vec3(particles.force[i]) - vec3(fluid_force[i]);
+      if (dem.has_weight(particles.mask[i])) contact -= particles.mass[i] * gravity;
+    }
+    frame.id.push_back(particles.id[i]);
+    frame.position.push_back(vec3(particles.position[i]));
+    frame.velocity.push_back(vec3(particles.velocity[i]));
+    frame.radius.push_back(particles.radius[i]);
+    frame.drag_force.push_back(fluid.drag_impulse / window);
+    frame.pressure_force.push_back(fluid.pressure_force);
+    frame.contact_force.push_back(contact);
+  }
+  return frame;
+}
+
+// Void fraction and drag are those of the end of the window, the fluid that of its start: cells that
+// became active in between show none.
+CellValues<BulkFrame> bulk_frame(const BulkGrid& grid, double window,
+                                 const CellValues<BulkParticles>& particles,
+                                 const CellValues<BulkFluid>& fluid) {
+  CellValues<BulkFrame> frame{particles.cells, std::vector<BulkFrame>(particles.cells.size())};
+  for (std::size_t i = 0; i < frame.cells.size(); ++i) {
+    BulkFrame& here = frame.values[i];
+    here.void_fraction = 1 - particles.values[i].solid_volume / grid.cell_volume();
+    here.drag = -particles.values[i].drag_impulse / (window * grid.cell_volume());
+    const auto found = std::lower_bound(fluid.cells.begin(), fluid.cells.end(), frame.cells[i]);
+    if (found == fluid.cells.end() || *found != frame.cells[i]) continue;
+    const BulkFluid& cell = fluid.values[found - fluid.cells.begin()];
+    here.fluid_velocity = cell.velocity;
+    here.pressure_gradient = cell.pressure_gradient;
+  }
+  return frame;
+}
+
+}  // namespace
+
+Output::Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path& folder, double interval)
+    : dem_(dem),
+      grid_(grid),
+      interval_(interval),
+      particles_(dem.world(), folder),
+      bulk_(dem.world(), grid, folder) {}
+
+void Output::write(double time, double window, bool last, const FluidForces& forces,
+                   const Averaging& averaging, const CellValues<BulkFluid>& fluid) {
+  const double tolerance = 0.5 * window;
+  const bool due = next_ == 0 || (interval_ > 0 && time > next_ * interval_ - tolerance);
+  if (!due && !last) return;
+  particles_.write(time, particle_frame(dem_, forces, window));
+  bulk_.write(time, bulk_frame(grid_, window, averaging.deposited(), fluid));
+  if (interval_ > 0)
+    next_ = std::lround(std::floor((time + tolerance) / interval_)) + 1;
+  else
+    next_ = 1;
+}
+
+}  // namespace demvof

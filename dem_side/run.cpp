@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/run.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/config/stopwatch.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/link/handshake_items.hpp"
+#include "coupler/link/link.hpp"
+#include "coupler/link/run_stage.hpp"
+#include "coupler/link/signals.hpp"
+#include "coupler/output/machine.hpp"
+#include "dem_side/averaging.hpp"
+#include "dem_side/dem.hpp"
+#include "dem_side/forces.hpp"
+#include "dem_side/output.hpp"
+#include "dem_side/particle_grid.hpp"
+#include "dem_side/report.hpp"
+#include "dem_side/survivor.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+const ParticleParameters& particle_parameters(const CaseParameters& parameters) {
+  if (parameters.particles && parameters.scene.particles != Switch::off) return *parameters.particles;
+  throw InputError(
+      parameters.file +
+      ": particles: not given or switched off, so dem_side has nothing to do; start foam_side alone");
+}
+
+std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& world) {
+  const ParticleCensus census = dem.census();
+  return nlohmann::json{{"particle_count", census.count},
+                        {"min_diameter", census.min_diameter},
+                        {"max_diameter", census.max_diameter},
+                        {"solid_volume", census.solid_volume},
+                        {"inserts_particles", dem.inserts_particles()},
+                        {"time_step", dem.time_step()},
+                        {"largest_solid_fraction", averaging.largest_solid_fraction()},
+                        {"ranks", world.size()}}
+      .dump();
+}
+
+}  // namespace
+
+int run_particles(const ProgramOptions& options, const OwnWorld& world) {
+  const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  const CouplingParameters& coupling = parameters.coupling;
+  const fs::path script = fs::absolute(beside_case_file(parameters, particle_parameters(parameters).script));
+  fs::create_directories(options.out);
+  Survivor survivor(options, parameters, world);
+
+  run_stage().set("particle script");
+  Dem dem(world.comm(), script.lexically_normal(), options.out / "particles.log");
+  install_signal_handlers();
+  const int steps = steps_per_window(coupling.window, dem.time_step());
+  FluidForces forces(dem, parameters.forces);
+  dem.set_up();
+  const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
+
+  run_stage().set("handshake");
+  Link link(world, grid.cell_count(), coupling.time_out);
+  Averaging averaging(world.comm(), grid, link.mine(), coupling.averaging);
+  averaging.deposit(dem.particles(), forces.contributions());
+  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
+                 facts(dem, averaging, world));
+  if (options.check) {
+    link.close();
+    return exit_done;
+  }
+
+  Report report(dem);
+  survivor.start(report.count());
+  Output output(dem, grid, options.out, parameters.output.interval);
+  output.write(0, coupling.window, false, forces, averaging, {});
+  link.send(averaging.deposited());
+
+  WallSeconds seconds;
+  const long windows = std::lround(coupling.end_time / coupling.window);
+  bool go_on = true;
+  for (long n = 1; n <= windows && go_on; ++n) {
+    run_stage().set("exchange with the fluid", static_cast<double>(n - 1) * coupling.window);
+    const auto fluid = link.receive<BulkFluid>();
+    {
+      const Stopwatch watch(seconds.averaging);
+      forces.begin_window(averaging.sample(fluid), coupling.window);
+    }
+    run_stage().set("DEM steps");
+    {
+      const Stopwatch watch(seconds.dem);
+      dem.run(steps);
+    }
+    const double time = static_cast<double>(n) * coupling.window;
+    run_stage().set("end of the window", time);
+    {
+      const Stopwatch watch(seconds.averaging);
+      averaging.deposit(dem.particles(), forces.contributions());
+    }
+    link.send(averaging.deposited());
+    seconds.exchange = link.statistics().exchange_seconds;
+    seconds.waiting = link.statistics().waiting_seconds;
+    link.swap_text(report.window(forces, averaging, seconds));
+    go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
+
+    survivor.window(n, n * steps, report.count(), seconds.dem, seconds.waiting);
+    output.write(time, coupling.window, n == windows || !go_on, forces, averaging, fluid);
+  }
+  link.close();
+  return go_on ? exit_done : exit_failed;
+}
+
+}  // namespace demvof

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/survivor.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/output/results.hpp"
+
+namespace demvof {
+
+namespace fs = std::filesystem;
+
+struct Survivor::State {
+  std::mutex mutex;
+  RunResults results;
+  fs::path file;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  fs::file_time_type start_of_files = fs::file_time_type::clock::now();
+
+  // A file younger than this run is the partner's own account.
+  bool partner_has_written() const {
+    std::error_code none;
+    const auto written = fs::last_write_time(file, none);
+    return !none && written >= start_of_files;
+  }
+};
+
+Survivor::Survivor(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world)
+    : state_(std::make_shared<State>()) {
+  RunResults& results = state_->results;
+  state_->file = options.out / "results.json";
+  results.status = RunStatus::failed;
+  results.configuration_hash = configuration_hash(parameters);
+  results.configuration = resolved_configuration(parameters);
+  results.command = options.command;
+  results.ranks = {world.partner_size(), world.size()};
+  if (world.rank() != 0 || options.check) return;
+  set_last_words([state = state_](const Failure& failure) {
+    if (failure.exit_code != exit_partner_lost || state->partner_has_written()) return;
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    state->results.failure = RunFailure{"particles", failure.stage, failure.time, failure.message};
+    state->results.wall_seconds.total =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - state->start).count();
+    write_results(state->file, state->results);
+  });
+}
+
+void Survivor::start(long particles) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->results.particles.initial = state_->results.particles.final = particles;
+}
+
+void Survivor::window(long windows, long dem_steps, long particles, double dem_seconds,
+                      double waiting_seconds) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  RunResults& results = state_->results;
+  results.steps.windows = windows;
+  results.steps.particles = dem_steps;
+  results.particles.final = particles;
+  results.wall_seconds.particles = dem_seconds;
+  results.wall_seconds.waiting = waiting_seconds;
+}
+
+}  // namespace demvof

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/config/program_options.hpp"
+#include "coupler/link/own_world.hpp"
+
+namespace demvof {
+
+/// foam_side writes results.json. When it is lost without having done so (killed, crashed), dem_side is
+/// the one left to tell how far the run came: this keeps what that takes.
+class Survivor {
+ public:
+  Survivor(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world);
+
+  void start(long particles);
+  void window(long windows, long dem_steps, long particles, double dem_seconds, double waiting_seconds);
+
+ private:
+  struct State;  // shared with the last words, which another thread may speak
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace demvof
