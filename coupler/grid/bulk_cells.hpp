@@ -29,10 +29,10 @@ struct BulkFluid {
 /// What the particles tell the fluid about one bulk cell at the end of a window. Every member is
 /// extensive: a sum over the particles with weights w_ic that add up to 1 for each particle.
 struct BulkParticles {
-  double solid_volume = 0;     // sum w V, m3
-  Vec3 drag_impulse;           // J, sum w (impulse received as drag in the window), N s
-  double drag_factor = 0;      // K V_cell = sum w beta, kg/s
-  double drag_response = 0;    // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
+  double solid_volume = 0;          // sum w V, m3
+  Vec3 drag_impulse;                // J, sum w (impulse received as drag in the window), N s
+  double drag_factor = 0;           // K V_cell = sum w beta, kg/s
+  double drag_response = 0;         // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
   Vec3 drag_weighted_velocity;      // sum w beta v, N
   Vec3 response_weighted_velocity;  // sum w beta_eff u_felt (fluid velocity each particle felt), N
 };
