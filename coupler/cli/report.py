@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes report.html of one run, or of several runs side by side; also of runs that stopped early.
+
+report.py RUN [RUN ...]: each RUN is the output folder of a run. The report is one self-contained file in the
+first folder; with several runs results.csv beside it has one row per run. Prints a short table and where
+the report is. Exit status: 0 done, 2 a folder is not that of a run, 3 the report could not be written.
+
+Needs matplotlib; VTK's Python modules for the pictures of the surface (left out, and said so, without them).
+"""
+import argparse
+import pathlib
+import sys
+
+from reporting import page, tables
+from reporting.run import NoRun, Run
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", nargs="+", type=pathlib.Path, metavar="RUN")
+    folders = parser.parse_args().runs
+    try:
+        runs = [Run(folder) for folder in folders]
+    except NoRun as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 2
+    report = folders[0] / "report.html"
+    try:
+        report.write_text(page.html(runs), encoding="utf-8")
+        if len(runs) > 1:
+            tables.write_csv(runs, folders[0] / "results.csv")
+    except OSError as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 3
+    print(tables.text(runs))
+    print(f"report: {report.resolve()}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

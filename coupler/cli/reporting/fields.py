@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fields of a run on the plane through its middle, read with VTK.
+
+Files of a run that was cut off can crash VTK's readers, so that `read` does the work in a process of its own:
+python3 -m reporting.fields RUN [TIME] writes a pickle to standard output.
+"""
+import math
+import os
+import pathlib
+import pickle
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree
+from dataclasses import dataclass
+
+import numpy
+
+from reporting.run import read_gravity
+
+RECONSTRUCTED, DECOMPOSED = 1, 0  # VTK's words for the two kinds of OpenFOAM case
+
+
+@dataclass
+class Section:
+    """What the plane shows. Points are (horizontal, vertical), m; vertical is against gravity."""
+
+    lower: numpy.ndarray      # corners of the fluid's box in the plane, m
+    upper: numpy.ndarray
+    normal: str               # axis across the plane, "y"
+    position: float           # of the plane on that axis, m
+    polygons: list            # one n x 2 array per cut cell
+    liquid: numpy.ndarray     # liquid fraction of each polygon, -
+    surface: list             # 2 x 2 arrays: where the liquid fraction is 0.5
+    centres: numpy.ndarray    # of the particles within one diameter of the plane, m
+    radii: numpy.ndarray      # m
+    speeds: numpy.ndarray     # m/s
+
+
+def read(folder, time=None):
+    """The times with fields, or the Section at one of them. Throws RuntimeError with the reason."""
+    command = [sys.executable, "-m", "reporting.fields", str(folder)] + ([] if time is None else [repr(time)])
+    here = pathlib.Path(__file__).resolve().parent.parent
+    done = subprocess.run(command, env={**os.environ, "PYTHONPATH": str(here)}, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, check=False)
+    if done.returncode != 0:
+        lines = done.stderr.decode(errors="replace").strip().splitlines()
+        reason = lines[-1] if done.returncode == 1 and lines else f"VTK crashed ({done.returncode})"
+        raise RuntimeError(f"the fields{'' if time is None else f' at {time:g} s'} cannot be read: {reason}")
+    answer = pickle.loads(done.stdout)
+    return answer if time is None else Section(**answer)
+
+
+class Fluid:
+    """The OpenFOAM case of a run, serial or decomposed."""
+
+    def __init__(self, folder):
+        from vtkmodules.vtkIOParallel import vtkPOpenFOAMReader
+        from vtkmodules.vtkParallelCore import vtkDummyController
+
+        case = folder / "fluid"
+        # Without a controller this reader crashes on decomposed cases.
+        self.controller = vtkDummyController()
+        vtkDummyController.SetGlobalController(self.controller)
+        self.reader = vtkPOpenFOAMReader()
+        self.reader.SetController(self.controller)
+        self.reader.SetFileName(str(case / "system" / "controlDict"))
+        decomposed = (case / "processor0").is_dir()
+        self.reader.SetCaseType(DECOMPOSED if decomposed else RECONSTRUCTED)
+        self.reader.UpdateInformation()
+        times = self.reader.GetTimeValues()
+        self.times = [times.GetValue(i) for i in range(times.GetNumberOfValues())] if times else []
+        self.reader.DisableAllPatchArrays()
+        self.reader.SetPatchArrayStatus("internalMesh", 1)
+        names = [self.reader.GetCellArrayName(i) for i in range(self.reader.GetNumberOfCellArrays())]
+        self.alpha = next((name for name in names if name.startswith("alpha.")), None)
+        for name in names:
+            self.reader.SetCellArrayStatus(name, int(name == self.alpha))
+
+    def meshes(self, time):
+        """The blocks of the mesh with the liquid fraction, at one of self.times."""
+        self.reader.UpdateTimeStep(time)
+        self.reader.Update()
+        return [mesh for mesh in leaves(self.reader.GetOutputDataObject(0)) if mesh.GetNumberOfCells() > 0]
+
+
+def leaves(data):
+    if data.IsA("vtkMultiBlockDataSet"):
+        return [leaf for i in range(data.GetNumberOfBlocks()) if data.GetBlock(i) for leaf in leaves(data.GetBlock(i))]
+    return [data]
+
+
+def section(folder, time):
+    """The Section of a run at one of its times."""
+    fluid = Fluid(folder)
+    meshes = fluid.meshes(time)
+    if not meshes:
+        raise RuntimeError("there is no mesh")
+    boxes = numpy.array([mesh.GetBounds() for mesh in meshes])
+    lower, upper = boxes[:, 0::2].min(axis=0), boxes[:, 1::2].max(axis=0)
+    gravity = read_gravity(folder)
+    vertical = int(numpy.argmax(numpy.abs(gravity))) if numpy.any(gravity) else 2
+    across = [axis for axis in range(3) if axis != vertical]
+    horizontal = max(across, key=lambda axis: upper[axis] - lower[axis])
+    normal = next(axis for axis in across if axis != horizontal)
+    axes, middle = [horizontal, vertical], 0.5 * (lower + upper)
+
+    # Slightly off the middle: a plane that lies in faces of the mesh would cut no cell.
+    origin = middle.copy()
+    origin[normal] += 1e-4 * (upper - lower)[normal]
+    polygons, liquid, surface = cut(meshes, fluid.alpha, origin, normal, axes)
+    positions, radii, speeds = particles(folder, time)
+    near = numpy.abs(positions[:, normal] - middle[normal]) <= 2 * radii
+    return Section(lower[axes], upper[axes], "xyz"[normal], middle[normal], polygons, liquid, surface,
+                   positions[near][:, axes], radii[near], speeds[near])
+
+
+def cut(meshes, alpha, origin, normal, axes):
+    """Polygons, their liquid fraction, and the lines where it is 0.5."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
+    from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkCutter
+
+    plane = vtkPlane()
+    plane.SetOrigin(*origin)
+    plane.SetNormal(*numpy.eye(3)[normal])
+    polygons, liquid, surface = [], [numpy.zeros(0)], []
+    for mesh in meshes:
+        cutter = vtkCutter()
+        cutter.SetCutFunction(plane)
+        cutter.SetInputData(mesh)
+        cutter.GenerateTrianglesOff()
+        cutter.Update()
+        flat = cutter.GetOutput()
+        if flat.GetNumberOfPolys() == 0:
+            continue
+        values = flat.GetCellData().GetArray(alpha)
+        if not values:
+            raise RuntimeError(f"there is no {alpha}")
+        polygons += cells(flat.GetPolys(), flat.GetPoints(), axes)
+        liquid.append(vtk_to_numpy(values))
+        contour = vtkContourFilter()
+        contour.SetInputData(flat)
+        contour.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, alpha)
+        contour.SetValue(0, 0.5)
+        contour.Update()
+        lines = contour.GetOutput()
+        if lines.GetNumberOfLines() > 0:
+            surface += cells(lines.GetLines(), lines.GetPoints(), axes)
+    return polygons, numpy.concatenate(liquid), surface
+
+
+def cells(array, points, axes):
+    """The corners of each cell of a vtkCellArray, in two of the three axes."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    corners = vtk_to_numpy(points.GetData())[:, axes]
+    connectivity = vtk_to_numpy(array.GetConnectivityArray())
+    offsets = vtk_to_numpy(array.GetOffsetsArray())
+    return [corners[connectivity[a:b]] for a, b in zip(offsets[:-1], offsets[1:])]
+
+
+def particles(folder, time):
+    """Positions, radii and speeds of the series' output at that time; empty arrays if there is none."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
+
+    nothing = numpy.zeros((0, 3)), numpy.zeros(0), numpy.zeros(0)
+    index = folder / "particles" / "particles.pvd"
+    if not index.is_file():
+        return nothing
+    files = {float(e.get("timestep")): e.get("file") for e in xml.etree.ElementTree.parse(index).iter("DataSet")}
+    nearest = min(files, key=lambda t: abs(t - time), default=None)
+    if nearest is None or not math.isclose(nearest, time, rel_tol=1e-6, abs_tol=1e-9):
+        return nothing
+    path = index.parent / files[nearest]
+    if not path.is_file():
+        return nothing
+    reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    data = reader.GetOutput()
+    if data.GetNumberOfPoints() == 0:
+        return nothing
+    velocity = vtk_to_numpy(data.GetPointData().GetArray("velocity"))
+    return (vtk_to_numpy(data.GetPoints().GetData()), vtk_to_numpy(data.GetPointData().GetArray("radius")),
+            numpy.linalg.norm(velocity, axis=1))
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    try:
+        answer = vars(section(folder, float(sys.argv[2]))) if len(sys.argv) > 2 else Fluid(folder).times
+    except ImportError as error:
+        sys.exit(f"VTK's Python modules are not installed (Debian: python3-vtk9): {error}")
+    except RuntimeError as error:
+        sys.exit(str(error))
+    pickle.dump(answer, sys.stdout.buffer)
+
+
+if __name__ == "__main__":
+    main()
