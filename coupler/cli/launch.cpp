@@ -115,18 +115,22 @@ LaunchCommand launch_command(const CaseParameters& parameters, const std::vector
   }
   if (geteuid() == 0)
     command.environment.insert({{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
-  command.words = {"mpirun",
-                   // More ranks than cores are allowed (Open MPI then yields the core while it waits), and
-                   // ranks are not pinned: two runs on one machine would be pinned to the same cores.
-                   "--oversubscribe", "--bind-to", "none",
-                   // Time for the surviving side to write what it has before mpirun kills it, s.
-                   "--mca", "odls_base_sigkill_timeout", "20",
-                   // Containers often forbid to read another process's memory.
-                   "--mca", "btl_vader_single_copy_mechanism", "none", "-np",
-                   std::to_string(parameters.fluid.ranks)};
+  command.words = {"mpirun"};
+  const auto add = [&command](const std::vector<std::string>& words) {
+    command.words.insert(command.words.end(), words.begin(), words.end());
+  };
+  // More ranks than cores are allowed (Open MPI then yields the core while it waits), and ranks are not
+  // pinned: two runs on one machine would be pinned to the same cores.
+  add({"--oversubscribe", "--bind-to", "none"});
+  // When a rank ends badly, mpirun waits twice this time, s, before it kills the others: enough for them
+  // to write what they have, and for a run to be over within 10 s of the loss of a side.
+  add({"--mca", "odls_base_sigkill_timeout", "3"});
+  // Containers often forbid to read another process's memory.
+  add({"--mca", "btl_vader_single_copy_mechanism", "none"});
+  add({"-np", std::to_string(parameters.fluid.ranks)});
   add_program("foam_side");
   if (command.pair) {
-    command.words.insert(command.words.end(), {":", "-np", std::to_string(parameters.particles->ranks)});
+    add({":", "-np", std::to_string(parameters.particles->ranks)});
     add_program("dem_side");
   }
   return command;

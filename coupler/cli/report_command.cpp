@@ -20,9 +20,13 @@ int report_command(const std::vector<std::string>& folders) {
   const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
   const fs::path script = programs.parent_path() / "share" / "demvof" / "report.py";
   if (!fs::exists(script)) throw std::runtime_error(fmt::format("{} is not there", script.string()));
-  std::vector<std::string> command = {"python3", script.string()};
+  // The distribution's Python has the distribution's matplotlib and VTK; another one in PATH may not.
+  const fs::path distribution = "/usr/bin/python3";
+  std::vector<std::string> command = {fs::exists(distribution) ? distribution.string() : "python3",
+                                      script.string()};
   command.insert(command.end(), folders.begin(), folders.end());
-  return ChildProcess(command).wait() == 0 ? 0 : 3;
+  const int code = ChildProcess(command).wait();
+  return code == 0 || code == 2 ? code : 3;
 }
 
 }  // namespace demvof

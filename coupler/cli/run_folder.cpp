@@ -81,7 +81,7 @@ void RunFolder::clear(bool force) const {
     throw InputError(
         fmt::format("--out {}: there is a file of that name; choose another --out", path_.string()));
   if (fs::exists(path_) && !fs::is_empty(path_)) {
-    const bool of_a_run = has_results() || fs::exists(prepare_log());
+    const bool of_a_run = has_results() || fs::exists(prepare_log()) || fs::exists(path_ / marker);
     if (!of_a_run)
       throw InputError(
           fmt::format("--out {}: the folder holds something that is no earlier run; choose another --out",

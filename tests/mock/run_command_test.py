@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The real `demvof` beside stand-ins for foam_side and dem_side: run_command_test.py DEMVOF [unittest arguments].
+
+The stand-ins are shell scripts that do what the environment variables FLUID and PARTICLES say; mpirun and the
+commands that prepare the case are real.
+"""
+import json
+import os
+import pathlib
+import pty
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+DEMVOF = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else None
+
+RESULTS = {"status": "completed", "particles": {"initial": 7, "lost": 0}, "quantities": {"liquid_front": 0.125}}
+
+# $1: the case file; --out DIR comes somewhere behind it.
+STAND_IN = r"""#!/bin/bash
+me=$(basename "$0")
+echo "$@" >> "$(dirname "$0")/$me.arguments"
+while [ $# -gt 0 ]; do [ "$1" = --out ] && out=$2; shift; done
+results() { sed "s/completed/$1/" "$(dirname "$0")/results.json" > "$out/results.json"; }
+progress() {
+    echo '{"time": '$1', "end_time": 1.0, "window": 1, "windows": 10, "speed": 0.5, "remaining_seconds": 65,
+           "worst_courant": 0.25, "particles": 7, "fine_cells": 8}' > "$out/progress.part"
+    mv "$out/progress.part" "$out/progress.json"
+}
+[ $me = foam_side ] && do=$FLUID || do=$PARTICLES
+trap 'results interrupted; exit 3' USR1
+trap 'echo $me got SIGINT' INT
+case $do in
+    complete) [ $me = dem_side ] || { progress 1.0; results completed; } ;;
+    slow)     for t in 0.0 0.31 1.0; do progress $t; sleep 1; done; results completed ;;
+    silent)   ;;
+    fail*)    echo "$me: this is why" >&2; [ $me = dem_side ] || results failed; exit ${do#fail} ;;
+    killed)   sleep 0.5; kill -9 $$ ;;
+    wait)     progress 0.1; touch "$out/$me.waits"; for i in {1..300}; do sleep 0.1; done ;;
+    follow)   for i in {1..300}; do [ -e "$out/results.json" ] && sleep 1 && exit 3; sleep 0.1; done ;;
+esac
+"""
+
+
+class RunCommand(unittest.TestCase):
+    def setUp(self):
+        self.base = pathlib.Path(tempfile.mkdtemp(prefix="demvof-test-"))
+        self.addCleanup(shutil.rmtree, self.base)
+        programs = self.base / "bin"
+        programs.mkdir()
+        shutil.copy(DEMVOF, programs / "demvof")
+        for name in ("foam_side", "dem_side"):
+            (programs / name).write_text(STAND_IN)
+            (programs / name).chmod(0o755)
+        (programs / "results.json").write_text(json.dumps(RESULTS))
+        for file in ("fluid/constant/g", "fluid/system/controlDict", "fluid/0.orig/U", "fluid/0/U", "in.script"):
+            (self.base / file).parent.mkdir(parents=True, exist_ok=True)
+            (self.base / file).write_text(file)
+        self.write_case("particles: {script: in.script}")
+
+    def write_case(self, particles, prepare="touch constant/mesh"):
+        (self.base / "case.yaml").write_text(
+            f"fluid: {{case: fluid, prepare: [{prepare}]}}\n{particles}\n"
+            "bulk_grid: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2]}\n"
+            "coupling: {end_time: 1, window: 0.1}\n")
+
+    def start(self, *arguments, fluid="complete", particles="complete", **options):
+        environment = {**os.environ, "FLUID": fluid, "PARTICLES": particles}
+        return subprocess.Popen([self.base / "bin/demvof", *arguments], cwd=self.base, env=environment, text=True,
+                                start_new_session=True,
+                                **{"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options})
+
+    def demvof(self, *arguments, **options):
+        process = self.start(*arguments, **options)
+        output, _ = process.communicate(timeout=60)
+        return process.returncode, output
+
+    def arguments_of(self, program):
+        return (self.base / f"bin/{program}.arguments").read_text()
+
+    # ---- a run that goes well
+
+    def test_a_completed_run_ends_with_a_table(self):
+        code, output = self.demvof("run", "case.yaml", "--set", "coupling.window=0.05")
+        self.assertEqual(code, 0, output)
+        self.assertIn("touch constant/mesh", output)
+        for part in ("status                 completed", "7 at the start", "liquid front           0.125 m",
+                     "run/results.json"):
+            self.assertIn(part, output)
+        for program in ("foam_side", "dem_side"):
+            self.assertEqual(self.arguments_of(program), "case.yaml --out run --set coupling.window=0.05\n")
+
+    def test_progress_is_a_line_per_tenth_without_a_terminal(self):
+        _, output = self.demvof("run", "case.yaml", fluid="slow")
+        shown = [line for line in output.splitlines() if "Co 0.25" in line]
+        self.assertEqual([line.split("%")[0].strip() for line in shown], ["0", "31", "100"])
+        self.assertNotIn("\r", output)
+
+    def test_progress_is_a_bar_on_a_terminal(self):
+        master, terminal = pty.openpty()
+        process = self.start("run", "case.yaml", fluid="slow", stdout=terminal, stderr=terminal)
+        os.close(terminal)
+        shown = b""
+        while True:  # the terminal closes with its last writer
+            try:
+                shown += os.read(master, 4096)
+            except OSError:
+                break
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertRegex(shown.decode(), r"\r\[=+ +\]  31 %  t 0\.31 of 1 s  0\.5 s/s  1:05 left  Co 0\.25")
+
+    def test_quiet_says_nothing_when_all_is_well(self):
+        self.assertEqual(self.demvof("run", "case.yaml", "--quiet"), (0, ""))
+
+    def test_preparation_copies_the_case_and_leaves_the_original(self):
+        before = sorted(path.relative_to(self.base) for path in (self.base / "fluid").rglob("*"))
+        self.assertEqual(self.demvof("prepare", "case.yaml", "--out", "a/b")[0], 0)
+        copy = self.base / "a/b/fluid"
+        self.assertEqual((copy / "0/U").read_text(), "fluid/0.orig/U")
+        self.assertTrue((copy / "constant/mesh").exists())
+        self.assertEqual(before, sorted(path.relative_to(self.base) for path in (self.base / "fluid").rglob("*")))
+
+    def test_a_prepared_case_is_not_prepared_again(self):
+        self.demvof("prepare", "case.yaml")
+        (self.base / "run/fluid/edited").touch()
+        code, output = self.demvof("run", "case.yaml")
+        self.assertEqual(code, 0, output)
+        self.assertNotIn("preparing", output)
+        self.assertTrue((self.base / "run/fluid/edited").exists())
+
+    def test_results_are_kept_until_forced(self):
+        self.demvof("run", "case.yaml")
+        code, output = self.demvof("run", "case.yaml")
+        self.assertEqual(code, 2)
+        self.assertEqual(output, "--out run: the folder holds the results of an earlier run; give --force to "
+                                 "replace it, or another --out\n")
+        self.assertEqual(self.demvof("run", "case.yaml", "--force")[0], 0)
+
+    # ---- the command itself
+
+    def test_print_command_shows_the_pair_and_does_nothing(self):
+        code, output = self.demvof("run", "case.yaml", "--print-command", "--fluid-ranks", "2", "--out", "a b")
+        self.assertEqual(code, 0)
+        programs = self.base / "bin"
+        options = "--out 'a b' --set fluid.ranks=2"
+        self.assertRegex(output, rf"^.*mpirun .*-np 2 {programs}/foam_side case.yaml {options} : "
+                                 rf"-np 1 {programs}/dem_side case.yaml {options}\n$")
+        self.assertFalse((self.base / "a b").exists())
+
+    def test_printed_command_runs_as_it_is(self):
+        self.demvof("prepare", "case.yaml")
+        _, line = self.demvof("run", "case.yaml", "--print-command")
+        environment = {**os.environ, "FLUID": "complete", "PARTICLES": "complete"}
+        subprocess.run(["sh", "-c", line], cwd=self.base, env=environment, check=True, timeout=60,
+                       capture_output=True)
+        self.assertTrue((self.base / "run/results.json").exists())
+
+    def test_without_particles_foam_side_runs_alone(self):
+        self.write_case("")
+        code, output = self.demvof("run", "case.yaml", "--print-command")
+        self.assertNotIn("mpirun", output)
+        self.assertNotIn("dem_side", output)
+        code, output = self.demvof("run", "case.yaml")
+        self.assertEqual(code, 0, output)
+        self.assertFalse((self.base / "bin/dem_side.arguments").exists())
+
+    def test_a_program_that_is_not_there_is_named(self):
+        (self.base / "bin/dem_side").unlink()
+        code, output = self.demvof("run", "case.yaml")
+        self.assertEqual(code, 3)
+        self.assertIn("dem_side is not there", output)
+
+    def test_wrong_commands_and_options_are_code_2(self):
+        for arguments in ([], ["rnu", "case.yaml"], ["run"], ["run", "case.yaml", "--fast"], ["run", "a", "b"],
+                          ["run", "case.yaml", "--fluid-ranks", "0"], ["run", "case.yaml", "--fluid-ranks", "two"],
+                          ["run", "nothing.yaml"], ["report", "."]):
+            code, output = self.demvof(*arguments)
+            self.assertEqual((code, bool(output)), (2, True), arguments)
+        self.assertIn("did you mean 'run'?", self.demvof("rnu")[1])
+
+    # ---- runs that end badly
+
+    def test_exit_codes_of_the_programs_are_passed_on(self):
+        for wanted in (2, 3, 4):
+            code, output = self.demvof("run", "case.yaml", "--force", fluid=f"fail{wanted}", particles="follow")
+            self.assertEqual(code, wanted, output)
+            self.assertIn("foam_side: this is why", output)
+
+    def test_a_killed_side_is_a_lost_partner(self):
+        code, output = self.demvof("run", "case.yaml", fluid="wait", particles="killed")
+        self.assertEqual(code, 4, output)
+
+    def test_done_without_results_is_no_success(self):
+        code, output = self.demvof("run", "case.yaml", fluid="silent", particles="silent")
+        self.assertEqual(code, 3)
+        self.assertIn("left no run/results.json", output)
+
+    def test_a_failing_preparation_shows_the_end_of_its_log(self):
+        self.write_case("particles: {script: in.script}", prepare="'echo no mesh today; exit 5'")
+        code, output = self.demvof("run", "case.yaml")
+        self.assertEqual(code, 2)
+        self.assertIn("failed (exit code 5) in run/fluid; the end of run/prepare.log:", output)
+        self.assertIn("\n    no mesh today", output)
+        self.write_case("particles: {script: in.script}")
+        self.assertEqual(self.demvof("run", "case.yaml")[0], 0, "a failed preparation is replaced without --force")
+
+    def wait_for(self, file):
+        for _ in range(200):
+            if (self.base / file).exists():
+                return
+            time.sleep(0.05)
+        self.fail(f"{file} never came")
+
+    def test_ctrl_c_stops_at_the_end_of_the_window(self):
+        process = self.start("run", "case.yaml", fluid="wait", particles="follow")
+        self.wait_for("run/foam_side.waits")
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to the whole process group
+        output, _ = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 3, output)
+        self.assertIn("stopping at the end of the window", output)
+        self.assertIn("interrupted", output)
+        self.assertNotIn("got SIGINT", output)
+
+    def test_nothing_is_left_running_when_demvof_is_killed(self):
+        process = self.start("run", "case.yaml", fluid="wait", particles="wait")
+        self.wait_for("run/foam_side.waits")
+        self.wait_for("run/dem_side.waits")
+        process.kill()
+        process.communicate(timeout=30)
+        for _ in range(300):
+            if not subprocess.run(["pgrep", "-f", str(self.base / "bin")], capture_output=True).stdout:
+                return
+            time.sleep(0.1)
+        self.fail("stand-ins are still running")
+
+    # ---- check
+
+    def test_check_asks_both_sides_in_a_folder_that_goes(self):
+        code, output = self.demvof("check", "case.yaml", "--set", "coupling.window=0.05")
+        self.assertEqual(code, 0, output)
+        for program in ("foam_side", "dem_side"):
+            self.assertRegex(self.arguments_of(program), r"^case.yaml --check --out \S+ --set coupling.window=0.05\n$")
+        out = re.search(r"--out (\S+)", self.arguments_of("foam_side")).group(1)
+        self.assertFalse(pathlib.Path(out).exists())
+        self.assertFalse((self.base / "run").exists())
+
+    def test_check_passes_on_what_a_side_refuses(self):
+        code, output = self.demvof("check", "case.yaml", fluid="fail2", particles="silent")
+        self.assertEqual(code, 2)
+        self.assertIn("foam_side: this is why", output)
+
+
+if __name__ == "__main__":
+    unittest.main()

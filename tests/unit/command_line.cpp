@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of the demvof command that need no solver: quoting, exit codes, progress, summary, run folders.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "coupler/cli/child_process.hpp"
+#include "coupler/cli/launch.hpp"
+#include "coupler/cli/progress_display.hpp"
+#include "coupler/cli/run_folder.hpp"
+#include "coupler/cli/summary.hpp"
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string output_of_shell(const std::string& line) {
+  FILE* pipe = popen(line.c_str(), "r");
+  std::string text;
+  std::array<char, 256> buffer;
+  while (std::fgets(buffer.data(), buffer.size(), pipe)) text += buffer.data();
+  pclose(pipe);
+  return text;
+}
+
+TEST(ShellLine, IsReadByAShellAsItWasMeant) {
+  const std::vector<std::string> words = {"printf", "<%s>", "plain", "with blank", "it's",
+                                          "$HOME",  "",     "a;b",   "[1, 2]"};
+  EXPECT_EQ(output_of_shell(shell_line(words)), "<plain><with blank><it's><$HOME><><a;b><[1, 2]>");
+}
+
+TEST(RunExitCode, PassesOnWhatTheProgramsSay) {
+  for (const int code : {0, 2, 3, 4}) EXPECT_EQ(run_exit_code(code, true, false), code);
+}
+
+TEST(RunExitCode, CountsASideKilledByASignalAsALostPartner) {
+  EXPECT_EQ(run_exit_code(137, true, false), 4);
+  EXPECT_EQ(run_exit_code(139, true, false), 4);
+  EXPECT_EQ(run_exit_code(139, false, false), 3) << "there is no partner";
+  EXPECT_EQ(run_exit_code(143, true, true), 3) << "the user ended it";
+  EXPECT_EQ(run_exit_code(1, true, false), 3) << "mpirun itself failed";
+}
+
+TEST(ChildProcess, TellsItsExitCodeAndItsSignal) {
+  EXPECT_EQ(ChildProcess({"sh", "-c", "exit 7"}).wait(), 7);
+  EXPECT_EQ(ChildProcess({"sh", "-c", "kill -9 $$"}).wait(), 128 + 9);
+}
+
+TEST(ChildProcess, NamesAProgramThatDoesNotStart) {
+  try {
+    ChildProcess({"no_such_program_at_all"});
+    FAIL() << "it started";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "cannot start no_such_program_at_all: No such file or directory");
+  }
+}
+
+TEST(Clock, CountsSecondsMinutesHours) {
+  EXPECT_EQ(clock_text(5.4), "0:05");
+  EXPECT_EQ(clock_text(65), "1:05");
+  EXPECT_EQ(clock_text(2 * 3600 + 3 * 60 + 4), "2:03:04");
+}
+
+Progress halfway() {
+  Progress progress;
+  progress.time = 0.25;
+  progress.end_time = 0.5;
+  progress.speed = 0.001;
+  progress.remaining_seconds = 250;
+  progress.worst_courant = 0.48;
+  progress.particles = 3883;
+  return progress;
+}
+
+TEST(ProgressLine, ShowsTimeSpeedRemainingCourantAndParticles) {
+  EXPECT_EQ(progress_line(halfway(), 92),
+            "[==========          ]  50 %  t 0.25 of 0.5 s  0.001 s/s  4:10 left  Co 0.48  3883 particles");
+}
+
+TEST(ProgressLine, FitsTheTerminal) {
+  for (int width = 0; width < 200; ++width)
+    EXPECT_LE(progress_line(halfway(), width).size(), static_cast<std::size_t>(width));
+}
+
+TEST(RunSummary, ShowsWhatAUserAsksForFirst) {
+  const auto results = nlohmann::ordered_json::parse(R"({
+    "status": "completed",
+    "wall_seconds": {"total": 200, "fluid": 150, "particles": 30, "exchange": 3, "waiting": null},
+    "particles": {"initial": 3883, "inserted": 0, "left": 1, "lost": 2, "final": 3880},
+    "conservation": {"exchange": 1e-15, "momentum": 2e-3, "solid_volume": 3e-14, "liquid_volume": 4e-6},
+    "quantities": {"liquid_front": 0.2, "solid_front": 0.1875},
+    "warnings": ["void fraction limited 3 times"]})");
+  const std::string text = run_summary(results);
+  for (const char* part :
+       {"completed", "3:20", "fluid 150.0 s (75 %)", "waiting 0.0 s",
+        "3883 at the start, 0 inserted, 1 left, 2 lost", "exchange 1.0e-15", "liquid volume 4.0e-06",
+        "liquid front           0.2 m", "solid front            0.1875 m", "void fraction limited 3 times"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+}
+
+/// A case with its files in a folder that goes when the test is over.
+class RunFolderTest : public testing::Test {
+ protected:
+  RunFolderTest() {
+    base_ = fs::path(testing::TempDir()) /
+            (std::string("demvof_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(base_);
+    for (const char* file : {"fluid/system/controlDict", "particles/in.script", "case.yaml"}) write(file);
+    parameters_.file = (base_ / "case.yaml").string();
+    parameters_.fluid.case_folder = "fluid";
+    parameters_.particles.emplace().script = "particles/in.script";
+  }
+  ~RunFolderTest() override { fs::remove_all(base_); }
+  void write(const fs::path& file) const {
+    fs::create_directories((base_ / file).parent_path());
+    std::ofstream(base_ / file) << "x\n";
+  }
+  RunFolder folder(const std::string& out) const { return RunFolder(parameters_, base_ / out); }
+  std::string refusal(const std::string& out, bool force) const {
+    try {
+      folder(out).clear(force);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+  static bool says(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+
+  fs::path base_;
+  CaseParameters parameters_;
+};
+
+TEST_F(RunFolderTest, StandsBesideTheCaseFileByDefault) {
+  EXPECT_EQ(RunFolder(parameters_, "").path(), base_ / "run");
+}
+
+TEST_F(RunFolderTest, TakesANewOrAnEmptyFolder) {
+  EXPECT_EQ(refusal("a/b", false), "nothing");
+  EXPECT_TRUE(fs::is_directory(base_ / "a/b"));
+  EXPECT_EQ(refusal("a/b", false), "nothing");
+}
+
+TEST_F(RunFolderTest, KeepsResultsUntilForced) {
+  write("run/results.json");
+  write("run/fluid/0/U");
+  write("run/notes.txt");
+  EXPECT_TRUE(says(refusal("run", false), "the results of an earlier run; give --force"));
+  EXPECT_TRUE(fs::exists(base_ / "run/fluid/0/U"));
+  EXPECT_EQ(refusal("run", true), "nothing");
+  EXPECT_FALSE(fs::exists(base_ / "run/fluid") || fs::exists(base_ / "run/results.json"));
+  EXPECT_TRUE(fs::exists(base_ / "run/notes.txt")) << "not ours";
+}
+
+TEST_F(RunFolderTest, NeverTouchesWhatIsNoRun) {
+  write("other/particles/thesis.tex");
+  EXPECT_TRUE(says(refusal("other", true), "holds something that is no earlier run"));
+  EXPECT_TRUE(fs::exists(base_ / "other/particles/thesis.tex"));
+}
+
+TEST_F(RunFolderTest, NeverTouchesTheCaseItself) {
+  write("results.json");  // would pass for a run's folder
+  for (const char* out : {".", "fluid", "fluid/run", "particles"})
+    EXPECT_TRUE(says(refusal(out, true), "the case's own")) << out << ": " << refusal(out, true);
+  EXPECT_TRUE(fs::exists(base_ / "particles/in.script"));
+}
+
+TEST_F(RunFolderTest, IsReadyForTheSamePreparationOnly) {
+  const RunFolder prepared = folder("run");
+  prepared.clear(false);
+  EXPECT_FALSE(prepared.ready());
+  prepared.mark_ready();
+  EXPECT_TRUE(prepared.ready());
+  parameters_.fluid.ranks = 2;
+  EXPECT_FALSE(folder("run").ready()) << "another decomposition";
+  EXPECT_TRUE(says(refusal("run", false), "--force"));
+  parameters_.fluid.ranks = 1;
+  EXPECT_TRUE(folder("run").ready());
+  fs::last_write_time(base_ / "fluid/system/controlDict",
+                      fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_FALSE(folder("run").ready()) << "the case has changed since";
+}
+
+TEST_F(RunFolderTest, IsNotReadyOnceItHasRun) {
+  const RunFolder prepared = folder("run");
+  prepared.clear(false);
+  prepared.mark_ready();
+  write("run/progress.json");
+  EXPECT_FALSE(prepared.ready());
+}
+
+}  // namespace
+}  // namespace demvof
