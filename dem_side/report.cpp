@@ -17,7 +17,6 @@ struct Sums {
   double count = 0, waiting_for_fluid = 0;
   double mass = 0, solid_volume = 0, solid_volume_bulk = 0;
   double kinetic_energy = 0, potential_energy = 0;
-  Vec3 momentum;
   WindowImpulses impulses;
   Vec3 drag_impulse_bulk, unplaced_left_over;
   double peak_memory_bytes = 0;
@@ -39,6 +38,17 @@ nlohmann::json array(const Vec3& v) {
 
 }  // namespace
 
+Vec3 half_step_momentum(const Dem& dem) {
+  const ParticleArrays particles = dem.particles();
+  Vec3 momentum;
+  for (int i = 0; i < particles.count; ++i)
+    if (dem.moves(particles.mask[i]))
+      momentum +=
+          particles.mass[i] * vec3(particles.velocity[i]) + 0.5 * dem.time_step() * vec3(particles.force[i]);
+  reduce(&momentum.x, sizeof(Vec3), MPI_SUM, dem.world());
+  return momentum;
+}
+
 Report::Report(const Dem& dem) : dem_(dem), count_(dem.census().count), inserted_before_(dem.inserted()) {}
 
 // A particle that is gone without an outlet in the script has slipped through a wall or left the box.
@@ -54,7 +64,6 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
                            const WallSeconds& seconds) {
   const ParticleArrays particles = dem_.particles();
   const Vec3 gravity = dem_.gravity();
-  const double half_step = 0.5 * dem_.time_step();
   constexpr double lowest = std::numeric_limits<double>::lowest();
 
   Sums sums;
@@ -67,8 +76,6 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
     sums.solid_volume += sphere_volume(particles.radius[i]);
     sums.kinetic_energy += 0.5 * mass * dot(velocity, velocity);
     sums.potential_energy -= mass * dot(gravity, position);
-    if (dem_.moves(particles.mask[i]))
-      sums.momentum += mass * velocity + half_step * vec3(particles.force[i]);
     for (int axis = 0; axis < 3; ++axis)
       extremes.front[axis] = std::max(extremes.front[axis], position[axis] + particles.radius[i]);
     extremes.max_speed = std::max(extremes.max_speed, norm(velocity));
@@ -97,7 +104,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
       {"kinetic_energy", sums.kinetic_energy},
       {"potential_energy", sums.potential_energy},
       {"max_speed", extremes.max_speed},
-      {"momentum", array(sums.momentum)},
+      {"momentum", array(half_step_momentum(dem_))},
       {"drag_impulse", array(sums.impulses.drag)},
       {"drag_impulse_bulk", array(sums.drag_impulse_bulk)},
       {"pressure_impulse", array(sums.impulses.pressure)},

@@ -17,6 +17,10 @@ struct WallSeconds {
   double waiting = 0;    // for the partner
 };
 
+/// Momentum of the moving particles at half steps, sum of m v + (dt/2) f (forces.hpp says why), over
+/// all ranks, kg m/s. Collective.
+Vec3 half_step_momentum(const Dem& dem);
+
 /// What dem_side tells foam_side, and through it the user, about every window.
 class Report {
  public:

@@ -34,6 +34,7 @@ const ParticleParameters& particle_parameters(const CaseParameters& parameters) 
 
 std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& world) {
   const ParticleCensus census = dem.census();
+  const Vec3 momentum = half_step_momentum(dem);
   return nlohmann::json{{"particle_count", census.count},
                         {"min_diameter", census.min_diameter},
                         {"max_diameter", census.max_diameter},
@@ -41,6 +42,7 @@ std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& wo
                         {"inserts_particles", dem.inserts_particles()},
                         {"time_step", dem.time_step()},
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
+                        {"momentum", {momentum.x, momentum.y, momentum.z}},
                         {"ranks", world.size()}}
       .dump();
 }
