@@ -39,7 +39,8 @@ double liquid_front(const Flow& flow) {
   return front;
 }
 
-/// The point of the mesh's box from which potential energies count.
+}  // namespace
+
 vector lowest_corner(const Flow& flow) {
   const auto& box = flow.mesh.bounds();
   vector corner = box.min();
@@ -47,8 +48,6 @@ vector lowest_corner(const Flow& flow) {
     if (flow.g.value()[axis] > 0) corner[axis] = box.max()[axis];
   return corner;
 }
-
-}  // namespace
 
 Quantities fluid_quantities(const Flow& flow) {
   const auto& mesh = flow.mesh;
@@ -78,9 +77,11 @@ Quantities fluid_quantities(const Flow& flow) {
       fastest_at = mesh.C()[cell];
     }
   }
-  Foam::FixedList<double, 12> sums{kinetic,  potential, squared, squared_x,    squared_liquid, squared_gas,
-                                   pressure, solid,     liquid,  in_interface, below_surface,  volume};
-  Foam::Pstream::listCombineGather(sums, Foam::plusEqOp<double>());
+  scalarField sums(12);
+  sums[0] = kinetic, sums[1] = potential, sums[2] = squared, sums[3] = squared_x, sums[4] = squared_liquid;
+  sums[5] = squared_gas, sums[6] = pressure, sums[7] = solid, sums[8] = liquid, sums[9] = in_interface;
+  sums[10] = below_surface, sums[11] = volume;
+  Foam::Pstream::listCombineGather(sums, Foam::plusEqOp<scalar>());
   Foam::Pstream::listCombineScatter(sums);
   const double fastest_anywhere = Foam::returnReduce(fastest, Foam::maxOp<double>());
   if (fastest < fastest_anywhere) fastest_at = vector::uniform(-Foam::VGREAT);

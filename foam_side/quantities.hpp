@@ -17,6 +17,9 @@ Quantities fluid_quantities(const Flow& flow);
 /// Integral of eps alpha, over all ranks, m3. Collective.
 double liquid_volume(const Flow& flow);
 
+/// The corner of the mesh's box from which potential energies count, m.
+vector lowest_corner(const Flow& flow);
+
 /// Integral of eps rho u, over all ranks, N s. Collective.
 Vec3 fluid_momentum(const Flow& flow);
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/fluid_case.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "coupler/config/read_case.hpp"
+
+namespace demvof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void require_prepared(const fs::path& folder, int ranks) {
+  if (!fs::exists(folder / "system" / "controlDict"))
+    throw InputError(
+        fmt::format("no prepared fluid case in {}: run `demvof prepare` with the same case file "
+                    "and --out first (`demvof run` does it by itself)",
+                    folder.string()));
+  int decomposed = 0;
+  while (fs::exists(folder / fmt::format("processor{}", decomposed))) ++decomposed;
+  if (ranks > 1 && decomposed != ranks)
+    throw InputError(
+        fmt::format("the fluid case in {} is decomposed for {} ranks, but foam_side runs on {}: run "
+                    "`demvof prepare` with --set fluid.ranks={} first",
+                    folder.string(), decomposed, ranks, ranks));
+  const fs::path mesh = (ranks > 1 ? folder / "processor0" : folder) / "constant" / "polyMesh" / "faces";
+  if (!fs::exists(mesh) && !fs::exists(mesh.string() + ".gz"))
+    throw InputError(
+        fmt::format("the fluid case in {} has no mesh ({} is missing): does fluid.prepare make one?",
+                    folder.string(), mesh.string()));
+}
+
+}  // namespace
+
+void send_output_to(const fs::path& log, int rank) {
+  static std::ofstream file;
+  if (rank == 0) file.open(log);
+  std::cout.rdbuf(file.rdbuf());
+}
+
+Foam::argList* open_case(const fs::path& folder, const OwnWorld& world) {
+  require_prepared(folder, world.size());
+  std::vector<std::string> words = {"foam_side", "-case", folder.string()};
+  if (world.size() > 1) words.push_back("-parallel");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  int count = static_cast<int>(pointers.size());
+  char** begin = pointers.data();
+  Foam::FatalError.throwExceptions();
+  Foam::FatalIOError.throwExceptions();
+  return new Foam::argList(count, begin, false, true);
+}
+
+}  // namespace demvof

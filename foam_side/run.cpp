@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/config/stopwatch.hpp"
+#include "coupler/link/handshake_items.hpp"
+#include "coupler/link/run_stage.hpp"
+#include "coupler/link/signals.hpp"
+#include "coupler/output/machine.hpp"
+#include "foam_side/bridge.hpp"
+#include "foam_side/fine_mesh.hpp"
+#include "foam_side/fluid_case.hpp"
+#include "foam_side/run_record.hpp"
+#include "foam_side/scene_facts.hpp"
+
+namespace demvof {
+
+namespace {
+
+using nlohmann::json;
+
+/// Everything between two field outputs.
+class FieldOutput {
+ public:
+  explicit FieldOutput(double interval) : interval_(interval) {}
+  /// Writes the fields when their time has come; last: in any case.
+  void write(Flow& flow, bool last) {
+    const double time = flow.time.value(), tolerance = 1e-9 * flow.time.deltaTValue();
+    if (!last && (interval_ <= 0 || time < static_cast<double>(next_) * interval_ - tolerance)) return;
+    flow.time.writeNow();
+    while (interval_ > 0 && static_cast<double>(next_) * interval_ <= time + tolerance) ++next_;
+  }
+
+ private:
+  double interval_;  // s
+  long next_ = 1;
+};
+
+/// One time step of the fluid; false when there is none left in the window or the run.
+bool step_fluid(Flow& flow, Bridge* bridge) {
+  if (!advance_clock(flow)) return false;
+  run_stage().set("fluid step", flow.time.value());
+  if (refine_mesh(flow) && bridge) bridge->remap();
+  update_porosity(flow);
+  if (bridge) bridge->spread_sources();
+  while (outer_corrector(flow)) {
+    advect_interface(flow);
+    predict_momentum(flow);
+    while (pressure_corrector(flow)) correct_pressure(flow);
+  }
+  end_step(flow);
+  return true;
+}
+
+RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, const OwnWorld& world,
+                   const Vec3& particle_momentum, RunRecord& record) {
+  const double window = parameters.coupling.window, end_time = parameters.coupling.end_time;
+  const long windows = std::lround(end_time / window);
+  FieldOutput fields(parameters.output.interval);
+  FluidSeconds seconds;
+
+  run_stage().set("first void fraction");
+  Bridge bridge(flow, parameters, link.mine(), world.comm());
+  bridge.take(link.receive<BulkParticles>());
+  if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
+  flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
+  record.start(flow, particle_momentum);
+  fields.write(flow, true);
+
+  bool go_on = true;
+  for (long n = 1; n <= windows && go_on; ++n) {
+    run_stage().set("exchange with the particles", flow.time.value());
+    {
+      const Stopwatch watch(seconds.mapping);
+      link.send(bridge.bulk_fluid());
+    }
+    CellValues<BulkParticles> particles = link.receive<BulkParticles>();
+    {
+      const Stopwatch watch(seconds.mapping);
+      bridge.take(std::move(particles));
+    }
+    {
+      const Stopwatch watch(seconds.fluid);
+      begin_window(flow, static_cast<double>(n) * window);
+      if (flow.porosity) set_porosity_target(flow, bridge.void_fraction());
+      while (step_fluid(flow, &bridge)) {
+      }
+    }
+    run_stage().set("end of the window", flow.time.value());
+    RunRecord::Window done;
+    done.number = n;
+    done.planned = windows;
+    done.explicit_impulse = bridge.impulses().explicit_part;
+    done.implicit_impulse = bridge.impulses().implicit_part;
+    done.active_cells = static_cast<long>(bridge.active_cells());
+    done.particles = json::parse(link.swap_text("{}"));
+    go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
+    seconds.waiting = link.statistics().waiting_seconds;
+    seconds.exchange = link.statistics().exchange_seconds;
+    done.seconds = seconds;
+    done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
+    done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
+    record.window(flow, done, end_time);
+    fields.write(flow, n == windows || !go_on);
+  }
+  return go_on ? RunStatus::completed : RunStatus::interrupted;
+}
+
+/// Plain VOF: steps and output times as in controlDict, like interFoam.
+RunStatus run_alone(Flow& flow, RunRecord& record) {
+  FluidSeconds seconds;
+  record.start(flow, Vec3{});
+  bool go_on = true;
+  for (long n = 1; go_on; ++n) {
+    {
+      const Stopwatch watch(seconds.fluid);
+      if (!step_fluid(flow, nullptr)) return RunStatus::completed;
+    }
+    RunRecord::Window done;
+    done.number = n;
+    done.seconds = seconds;
+    record.window(flow, done, flow.time.endTime().value());
+    go_on = !Foam::returnReduce(stop_requested(), Foam::orOp<bool>());
+  }
+  flow.time.writeNow();
+  return RunStatus::interrupted;
+}
+
+void require_grid_covers_mesh(const BulkGridParameters& grid, const MeshBox& mesh) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double tolerance = 1e-6 * (mesh.upper[axis] - mesh.lower[axis]);
+    if (grid.lower[axis] <= mesh.lower[axis] + tolerance && grid.upper[axis] >= mesh.upper[axis] - tolerance)
+      continue;
+    throw InputError(
+        fmt::format("bulk_grid: from {} to {} m along {}, but the fluid mesh goes from {} to {} m: the bulk "
+                    "grid must cover it",
+                    grid.lower[axis], grid.upper[axis], "xyz"[axis], mesh.lower[axis], mesh.upper[axis]));
+  }
+}
+
+json facts_as_json(const SceneFacts& facts) {
+  return {{"surface_tension", facts.surface_tension},
+          {"two_fluids", facts.two_fluids},
+          {"turbulent", facts.turbulent}};
+}
+
+void add_particle_facts(SceneFacts& facts, const json& particles) {
+  facts.particles = true;
+  facts.particle_count = particles.at("particle_count");
+  facts.inserts_particles = particles.at("inserts_particles");
+  facts.largest_solid_fraction = particles.at("largest_solid_fraction");
+}
+
+Vec3 particle_momentum(const json& facts) {
+  const json& momentum = facts.at("momentum");
+  return {momentum.at(0), momentum.at(1), momentum.at(2)};
+}
+
+void print_scene(const Scene& scene) {
+  for (const Decision& decision : scene.decisions)
+    fmt::print("  {:<24} {:<4} {}\n", decision.decision, decision.on ? "on" : "off", decision.reason);
+}
+
+int run_case(const ProgramOptions& options, const OwnWorld& world) {
+  const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
+  send_output_to(options.out / "fluid.log", world.rank());
+  const Foam::argList& args = *open_case(options.out / "fluid", world);
+  SceneFacts facts = fluid_facts(args);
+
+  std::optional<Link> link;
+  json particles;
+  if (paired) {
+    run_stage().set("handshake");
+    const BulkGridParameters& grid = *parameters.bulk_grid;
+    link.emplace(world, BulkGrid(grid.lower, grid.upper, grid.cells).cell_count(),
+                 parameters.coupling.time_out);
+    particles = json::parse(
+        link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args)),
+                        facts_as_json(facts).dump()));
+    add_particle_facts(facts, particles);
+  }
+  const Scene scene = plan_scene(parameters.scene, facts);
+
+  run_stage().set("reading the fluid case");
+  const std::unique_ptr<Flow> flow = open_flow(args, scene);
+  install_signal_handlers();
+  if (paired) require_grid_covers_mesh(*parameters.bulk_grid, mesh_box(flow->mesh));
+  if (options.check) {
+    if (world.rank() == 0) print_scene(scene);
+    if (link) link->close();
+    return exit_done;
+  }
+
+  RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
+  const RunStatus status =
+      link ? run_pair(*flow, parameters, *link, world, particle_momentum(particles), record)
+           : run_alone(*flow, record);
+  record.finish(*flow, status);
+  if (link) link->close();
+  return status == RunStatus::completed ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+int run_fluid(const ProgramOptions& options, const OwnWorld& world) {
+  try {
+    return run_case(options, world);
+  } catch (const Foam::error& error) {
+    const std::string said = error.message();
+    if (run_stage().time() > 0) throw RunError(said);
+    throw InputError(said);
+  }
+}
+
+}  // namespace demvof

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/run_record.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
+#include "coupler/output/machine.hpp"
+#include "coupler/output/quantities.hpp"
+#include "foam_side/fine_mesh.hpp"
+
+namespace demvof {
+
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+using nlohmann::json;
+
+double seconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+Vec3 vec3(const json& array) {
+  return {array.at(0), array.at(1), array.at(2)};
+}
+
+/// Names that this run can record, in the order of the table.
+std::vector<std::string> recorded_names(const CaseParameters& parameters, bool particles) {
+  if (!parameters.output.history.empty()) return parameters.output.history;
+  std::vector<std::string> names;
+  for (const Quantity& quantity : known_quantities) {
+    const std::string name(quantity.name);
+    const bool of_particles = name == "particles" || name == "solid_front" || name.rfind("particle_", 0) == 0;
+    if (particles || !of_particles) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+struct RunRecord::Shared {
+  std::mutex mutex;
+  RunResults results;
+  std::filesystem::path file;
+  WallClock::time_point start = WallClock::now();
+
+  void write() {
+    results.wall_seconds.total = seconds_since(start);
+    write_results(file, results);
+  }
+};
+
+RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parameters, const Scene& scene,
+                     const json& particles, int rank, int ranks)
+    : out_(options.out),
+      parameters_(parameters),
+      writes_(rank == 0),
+      shared_(std::make_shared<Shared>()),
+      progress_(options.out / "progress.json") {
+  RunResults& results = shared_->results;
+  shared_->file = out_ / "results.json";
+  results.configuration_hash = configuration_hash(parameters);
+  results.configuration = resolved_configuration(parameters);
+  results.command = options.command;
+  results.ranks = {ranks, particles.is_null() ? 0 : particles.at("ranks").get<int>()};
+  results.scene = scene.decisions;
+  if (!particles.is_null()) {
+    results.particles.initial = results.particles.final = particles.at("particle_count");
+    dem_step_ = particles.at("time_step");
+  }
+  if (!writes_) return;
+  set_last_words([shared = shared_](const Failure& failure) {
+    const std::lock_guard<std::mutex> lock(shared->mutex);
+    shared->results.status = RunStatus::failed;
+    shared->results.failure = RunFailure{"fluid", failure.stage, failure.time, failure.message};
+    shared->write();
+  });
+}
+
+RunRecord::~RunRecord() = default;
+
+void RunRecord::start(const Flow& flow, const Vec3& particle_momentum) {
+  const Quantities quantities = fluid_quantities(flow);
+  ledger_.emplace(particle_momentum, Vec3{}, quantities.at("liquid_volume"));
+  initial_potential_ = quantities.at("potential_energy");
+  next_row_ = flow.time.value();
+  if (writes_) {
+    std::vector<HistoryColumn> columns;
+    for (const std::string& name : recorded_names(parameters_, flow.scene.particles))
+      columns.push_back({name, std::string(find_quantity(name)->unit)});
+    history_ = std::make_unique<History>(out_ / "history.csv", columns);
+  }
+}
+
+/// Enters a window into the ledger. Momentum is that of the particles: drag, left-over, pressure,
+/// contacts and gravity must add up to its change (docs/outputs.md says what this covers).
+void RunRecord::close_books(const Window& window, double liquid_volume) {
+  WindowBalance balance;
+  balance.liquid_volume = liquid_volume;
+  if (!window.particles.is_null()) {
+    const json& p = window.particles;
+    const bool owes = hands_back_left_over(parameters_.coupling.exchange);
+    balance.drag_to_particles = vec3(p.at("drag_impulse")) + vec3(p.at("held_impulse"));
+    balance.left_over_to_particles = vec3(p.at("left_over_given"));
+    balance.explicit_to_fluid = window.explicit_impulse;
+    balance.implicit_to_fluid = window.implicit_impulse;
+    if (owes) balance.pending = vec3(p.at("left_over_unplaced")) - window.implicit_impulse;
+    balance.particle_momentum = vec3(p.at("momentum"));
+    balance.external = vec3(p.at("drag_impulse")) + balance.left_over_to_particles +
+                       vec3(p.at("pressure_impulse")) + vec3(p.at("contact_impulse")) +
+                       vec3(p.at("gravity_impulse")) + (balance.pending - pending_);
+    pending_ = balance.pending;
+    balance.bulk_solid_volume = p.at("solid_volume_bulk");
+    balance.particle_volume = p.at("solid_volume");
+  }
+  ledger_->close(balance);
+  const ConservationErrors& worst = ledger_->worst();
+  shared_->results.conservation = {worst.exchange, worst.momentum, worst.solid_volume, worst.liquid_volume};
+}
+
+void RunRecord::window(const Flow& flow, const Window& window, double end_time) {
+  const double liquid = liquid_volume(flow);
+  const long cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
+  const double memory = Foam::returnReduce(static_cast<double>(peak_memory_bytes()), Foam::sumOp<double>());
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    RunResults& results = shared_->results;
+    results.steps.windows = window.number;
+    results.steps.fluid = flow.clock.steps;
+    results.cells.fine_max = std::max(results.cells.fine_max, cells);
+    results.cells.fine_min = results.cells.fine_min ? std::min(results.cells.fine_min, cells) : cells;
+    results.cells.bulk_active_max = std::max(results.cells.bulk_active_max, window.active_cells);
+    results.peak_memory_bytes.fluid = static_cast<std::int64_t>(memory);
+    results.wall_seconds.fluid = window.seconds.fluid;
+    results.wall_seconds.exchange = window.seconds.mapping + window.seconds.exchange;
+    results.wall_seconds.waiting = window.seconds.waiting;
+    results.exchanged = {window.exchanged_bytes, window.exchanged_cells};
+    if (!window.particles.is_null()) {
+      const json& p = window.particles;
+      const auto& s = p.at("seconds");
+      results.wall_seconds.particles = s.at("dem");
+      results.wall_seconds.exchange += s.at("averaging").get<double>() + s.at("exchange").get<double>();
+      results.wall_seconds.waiting += s.at("waiting").get<double>();
+      results.peak_memory_bytes.particles =
+          static_cast<std::int64_t>(p.at("peak_memory_bytes").get<double>());
+      results.particles.final = p.at("count");
+      results.particles.inserted = p.at("inserted");
+      results.particles.left = p.at("left");
+      results.particles.lost = p.at("lost");
+      results.steps.particles =
+          std::lround(static_cast<double>(window.number) * parameters_.coupling.window / dem_step_);
+      last_particles_ = p;
+    }
+    close_books(window, liquid);
+  }
+  const double time = flow.time.value();
+  if (time > next_row_ - 0.5 * flow.time.deltaTValue() || time >= end_time) {
+    write_row(flow, window.particles);
+    next_row_ += parameters_.output.history_interval;
+    if (parameters_.output.history_interval <= 0) next_row_ = time;
+  }
+  if (!writes_) return;
+  Progress progress;
+  progress.time = time;
+  progress.end_time = end_time;
+  progress.window = window.number;
+  progress.windows = window.planned;
+  progress.worst_courant = flow.clock.largest_courant;
+  progress.particles = shared_->results.particles.final;
+  progress.fine_cells = cells;
+  progress_.update(progress);
+}
+
+Quantities RunRecord::all_quantities(const Flow& flow, const json& particles) const {
+  Quantities q = fluid_quantities(flow);
+  q["kinetic_energy_ratio"] = initial_potential_ > 0 ? q["kinetic_energy"] / initial_potential_ : 0;
+  q["mechanical_energy"] = q["kinetic_energy"] + q["potential_energy"];
+  if (particles.is_null()) return q;
+  q["particles"] = particles.at("count");
+  q["particle_kinetic_energy"] = particles.at("kinetic_energy");
+  // dem_side counts potential energy from the origin, the fluid from the lowest corner of its mesh.
+  q["particle_potential_energy"] =
+      particles.at("potential_energy").get<double>() +
+      particles.at("mass").get<double>() * (flow.g.value() & lowest_corner(flow));
+  if (particles.contains("solid_front")) q["solid_front"] = particles.at("solid_front").at(0);
+  q["mechanical_energy"] += q["particle_kinetic_energy"] + q["particle_potential_energy"];
+  return q;
+}
+
+void RunRecord::write_row(const Flow& flow, const json& particles) {
+  const Quantities quantities = all_quantities(flow, particles);
+  last_row_ = flow.time.value();
+  if (!writes_) return;
+  std::vector<double> row;
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->results.quantities.clear();
+  for (const HistoryColumn& column : history_->columns()) {
+    const auto found = quantities.find(column.name);
+    row.push_back(found == quantities.end() ? std::nan("") : found->second);
+    if (found != quantities.end()) shared_->results.quantities.push_back(*found);
+  }
+  history_->append(flow.time.value(), row);
+}
+
+void RunRecord::finish(const Flow& flow, RunStatus status) {
+  if (flow.time.value() > last_row_) write_row(flow, last_particles_);
+  if (!writes_) return;
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->results.status = status;
+  shared_->results.cells.bulk =
+      parameters_.bulk_grid
+          ? static_cast<long>(BulkGrid(parameters_.bulk_grid->lower, parameters_.bulk_grid->upper,
+                                       parameters_.bulk_grid->cells)
+                                  .cell_count())
+          : 0;
+  shared_->write();
+}
+
+}  // namespace demvof

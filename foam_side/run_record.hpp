@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/config/program_options.hpp"
+#include "coupler/exchange/ledger.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/output/history.hpp"
+#include "coupler/output/progress.hpp"
+#include "coupler/output/results.hpp"
+#include "foam_side/flow.hpp"
+#include "foam_side/quantities.hpp"
+
+namespace demvof {
+
+/// Wall time of rank 0 of this side, s.
+struct FluidSeconds {
+  double fluid = 0;     // in the fluid's equations
+  double mapping = 0;   // between fine mesh and bulk grid
+  double exchange = 0;  // packing and moving data, waiting apart
+  double waiting = 0;   // for the partner
+};
+
+/// What a run leaves behind besides its fields: history.csv, progress.json, results.json.
+/// Rank 0 writes; calls that take the flow are collective over the fluid side.
+class RunRecord {
+ public:
+  /// particles: the facts that dem_side stated in the handshake (null without particles).
+  RunRecord(const ProgramOptions& options, const CaseParameters& parameters, const Scene& scene,
+            const nlohmann::json& particles, int rank, int ranks);
+  ~RunRecord();
+
+  /// The state before the first step. particle_momentum: of all particles, at half steps, kg m/s.
+  void start(const Flow& flow, const Vec3& particle_momentum);
+
+  /// One window (with particles) or time step (without).
+  struct Window {
+    long number = 0, planned = 0;             // planned 0: not known
+    Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
+    long active_cells = 0;                    // of the bulk grid
+    nlohmann::json particles;                 // dem_side's report; null without particles
+    FluidSeconds seconds;
+    std::int64_t exchanged_bytes = 0, exchanged_cells = 0;
+  };
+  void window(const Flow& flow, const Window& window, double end_time);
+
+  /// Writes results.json. Failures are written by the last words (failure.hpp) instead.
+  void finish(const Flow& flow, RunStatus status);
+
+ private:
+  struct Shared;  // results as the last words need them, whichever thread speaks them
+  void close_books(const Window& window, double liquid_volume);
+  Quantities all_quantities(const Flow& flow, const nlohmann::json& particles) const;
+  void write_row(const Flow& flow, const nlohmann::json& particles);
+
+  std::filesystem::path out_;
+  const CaseParameters& parameters_;
+  bool writes_;
+  std::shared_ptr<Shared> shared_;
+  std::unique_ptr<History> history_;
+  ProgressFile progress_;
+  std::optional<Ledger> ledger_;
+  double initial_potential_ = 0;  // J
+  Vec3 pending_;                  // owed to the particles, N s
+  double dem_step_ = 0;           // s
+  double last_row_ = -1;          // time of the last row of history.csv, s
+  double next_row_ = 0;           // time of the next row of history.csv, s
+  nlohmann::json last_particles_;
+};
+
+}  // namespace demvof
