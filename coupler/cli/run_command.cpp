@@ -24,13 +24,14 @@ int confirmed(int code, const nlohmann::ordered_json& results) {
   return code == 0 && status != "completed" ? 3 : code;
 }
 
-void print_end(int code, const nlohmann::ordered_json& results, const RunFolder& folder) {
-  if (results.is_object())
-    fmt::print("\n{}", run_summary(results));
-  else
+/// said_why: the programs have told the user what went wrong.
+void print_end(int code, const nlohmann::ordered_json& results, const RunFolder& folder, bool said_why) {
+  if (!results.is_object())
     fmt::print("\nThe programs left no {}.\n", (folder.path() / "results.json").string());
-  if (code != 0 && !failure_text(results).empty()) fmt::print("failed: {}\n", failure_text(results));
-  fmt::print("\nOutputs:\n{}", output_list(folder.path()));
+  else
+    fmt::print("\n{}", run_summary(results));
+  if (code != 0 && !said_why) fmt::print("{}\n", failure_text(results));
+  fmt::print("\n{}", output_list(folder.path()));
 }
 
 }  // namespace
@@ -53,14 +54,18 @@ int run_command(CaseOptions options, const RunOptions& run) {
 
   ProgressDisplay display(folder.path() / "progress.json", suitable_display(run.quiet));
   Watch watch;
-  watch.on_line = [&](const std::string& line) { display.print(line); };
+  bool said_something = false;
+  watch.on_line = [&](const std::string& line) {
+    said_something = true;
+    display.print(line);
+  };
   watch.on_tick = [&] { display.update(); };
   const int launched = launch(command, watch);
   display.finish();
 
   const nlohmann::ordered_json results = read_results(folder.path());
   const int code = confirmed(launched, results);
-  if (!run.quiet || code != 0) print_end(code, results, folder);
+  if (!run.quiet || code != 0) print_end(code, results, folder, said_something);
   return code;
 }
 

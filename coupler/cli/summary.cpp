@@ -5,7 +5,6 @@
 
 #include <fstream>
 #include <utility>
-#include <vector>
 
 #include "coupler/cli/progress_display.hpp"
 
@@ -25,7 +24,7 @@ long whole(const Json& json, const std::string& path) {
 
 std::string wall_times(const Json& r) {
   const double total = number(r, "/wall_seconds/total");
-  std::string text = clock_text(total) + " (h:m:s)";
+  std::string text = clock_text(total);
   for (const char* part : {"fluid", "particles", "exchange", "waiting"}) {
     const double seconds = number(r, std::string("/wall_seconds/") + part);
     text += fmt::format(", {} {:.1f} s", part, seconds);
@@ -43,33 +42,34 @@ Json read_results(const std::filesystem::path& folder) {
 }
 
 std::string run_summary(const Json& r) {
-  std::vector<std::pair<std::string, std::string>> rows;
-  rows.emplace_back("status", r.value("status", "unknown"));
-  rows.emplace_back("wall time", wall_times(r));
-  rows.emplace_back("steps", fmt::format("{} windows, {} fluid, {} DEM", whole(r, "/steps/windows"),
-                                         whole(r, "/steps/fluid"), whole(r, "/steps/particles")));
-  rows.emplace_back("cells", fmt::format("{} fine at most, {} bulk, of these {} exchanged at most",
-                                         whole(r, "/cells/fine_max"), whole(r, "/cells/bulk"),
-                                         whole(r, "/cells/bulk_active_max")));
+  std::string text;
+  const auto row = [&text](const std::string& label, const std::string& value) {
+    text += fmt::format("{:<22} {}\n", label, value);
+  };
+  const std::string status = r.value("status", "unknown");
+  row("status", status);
+  if (status != "completed" && whole(r, "/steps/windows") == 0) return text;  // nothing else to tell
+
+  row("wall time", wall_times(r));
+  row("steps", fmt::format("{} windows, {} fluid, {} DEM", whole(r, "/steps/windows"),
+                           whole(r, "/steps/fluid"), whole(r, "/steps/particles")));
+  row("cells",
+      fmt::format("{} fine at most, {} bulk, of these {} exchanged at most", whole(r, "/cells/fine_max"),
+                  whole(r, "/cells/bulk"), whole(r, "/cells/bulk_active_max")));
   if (whole(r, "/particles/initial") + whole(r, "/particles/inserted") > 0)
-    rows.emplace_back("particles",
-                      fmt::format("{} at the start, {} inserted, {} left, {} lost",
-                                  whole(r, "/particles/initial"), whole(r, "/particles/inserted"),
-                                  whole(r, "/particles/left"), whole(r, "/particles/lost")));
-  rows.emplace_back(
-      "worst relative errors",
+    row("particles", fmt::format("{} at the start, {} inserted, {} left, {} lost",
+                                 whole(r, "/particles/initial"), whole(r, "/particles/inserted"),
+                                 whole(r, "/particles/left"), whole(r, "/particles/lost")));
+  row("worst relative errors",
       fmt::format("exchange {:.1e}, momentum {:.1e}, solid volume {:.1e}, liquid volume {:.1e}",
                   number(r, "/conservation/exchange"), number(r, "/conservation/momentum"),
                   number(r, "/conservation/solid_volume"), number(r, "/conservation/liquid_volume")));
-  for (const auto& [quantity, label] :
-       {std::pair{"liquid_front", "liquid front"}, {"solid_front", "solid front"}})
-    if (const std::string path = std::string("/quantities/") + quantity; r.contains(Json::json_pointer(path)))
-      rows.emplace_back(label, fmt::format("{:.4g} m", number(r, path)));
+  for (const std::string front : {"liquid", "solid"})
+    if (const std::string path = "/quantities/" + front + "_front"; r.contains(Json::json_pointer(path)))
+      row(front + " front", fmt::format("{:.4g} m", number(r, path)));
   if (r.contains("warnings"))
     for (const Json& warning : r["warnings"])
-      if (warning.is_string()) rows.emplace_back("warning", warning.get<std::string>());
-  std::string text;
-  for (const auto& [label, value] : rows) text += fmt::format("{:<22} {}\n", label, value);
+      if (warning.is_string()) row("warning", warning.get<std::string>());
   return text;
 }
 
@@ -90,10 +90,9 @@ std::string output_list(const std::filesystem::path& folder) {
       {"fluid.log", "what OpenFOAM said"},
       {"particles.log", "what LIGGGHTS said"},
       {"report.html", "pictures and tables"}};
-  std::string text;
+  std::string text = fmt::format("In {}:\n", folder.string());
   for (const auto& [name, meaning] : outputs)
-    if (std::filesystem::exists(folder / name))
-      text += fmt::format("  {:<34} {}\n", (folder / name).string(), meaning);
+    if (std::filesystem::exists(folder / name)) text += fmt::format("  {:<23} {}\n", name, meaning);
   return text;
 }
 

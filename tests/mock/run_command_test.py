@@ -20,7 +20,7 @@ import unittest
 
 DEMVOF = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else None
 
-RESULTS = {"status": "completed", "particles": {"initial": 7, "lost": 0}, "quantities": {"liquid_front": 0.125}}
+RESULTS = {"status": "completed", "steps": {"windows": 10}, "particles": {"initial": 7, "lost": 0}, "quantities": {"liquid_front": 0.125}}
 
 # $1: the case file; --out DIR comes somewhere behind it.
 STAND_IN = r"""#!/bin/bash
@@ -91,7 +91,7 @@ class RunCommand(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn("touch constant/mesh", output)
         for part in ("status                 completed", "7 at the start", "liquid front           0.125 m",
-                     "run/results.json"):
+                     "In run:\n  results.json"):
             self.assertIn(part, output)
         for program in ("foam_side", "dem_side"):
             self.assertEqual(self.arguments_of(program), "case.yaml --out run --set coupling.window=0.05\n")

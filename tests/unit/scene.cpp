@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "coupler/config/read_case.hpp"
+#include "coupler/scene/resolved_numbers.hpp"
 
 namespace demvof {
 namespace {
@@ -197,6 +198,29 @@ TEST(ScenePlan, FollowsTheFluidCaseInTurbulence) {
 TEST(SceneTable, IsALinePerDecision) {
   EXPECT_EQ(scene_table({{"drag", true, "Yes."}, {"turbulence", false, "No."}}),
             "on   drag        Yes.\noff  turbulence  No.\n");
+}
+
+TEST(NumbersTable, ShowsStepsPerWindowCellsAndParticles) {
+  ResolvedNumbers numbers;
+  numbers.window = 2e-4;
+  numbers.windows = 2500;
+  numbers.dem_time_step = 2e-6;
+  numbers.dem_steps = 100;
+  numbers.fluid_time_step = 1e-4;
+  numbers.fluid_steps = 2;
+  numbers.fine_cells = 48000;
+  numbers.bulk_cells = 6000;
+  numbers.bulk_spacing = 0.01;
+  numbers.particles = 3883;
+  numbers.min_diameter = numbers.max_diameter = 0.0025;
+  EXPECT_EQ(numbers_table(numbers),
+            "windows       2500 of 0.0002 s\n"
+            "fluid steps   2 of 0.0001 s in the first window (k)\n"
+            "DEM steps     100 of 2e-06 s in each window (n)\n"
+            "fine cells    48000 at the start\n"
+            "bulk cells    6000, 4 particle diameters wide\n"
+            "particles     3883 at the start, 0.0025 m\n");
+  EXPECT_EQ(numbers_table({}), "fine cells    0 at the start\n") << "nothing about particles without any";
 }
 
 }  // namespace
