@@ -42,7 +42,7 @@ template <class T>
 constexpr int row_width() {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0,
                 "a bulk record must be a plain row of doubles");
-  return static_cast<int>(sizeof(T) / sizeof(double));
+  return static_cast<int>(sizeof(T) / sizeof(double));  // NOLINT(bugprone-sizeof-expression): T may be double
 }
 
 }  // namespace demvof

@@ -32,8 +32,9 @@ void AxisKernel::reach(double x_min, double x_max, int& first, int& last) const 
   const bool inside = x_min >= lower_ && x_max < lower_ + cells_ * spacing_;
   const double low = cells_from_lower(x_min) - reach_, high = cells_from_lower(x_max) + reach_;
   const bool wraps = periodic_ && !(inside && low >= 0 && high < cells_);
-  first = wraps || !(low > 0) ? 0 : std::min(static_cast<int>(low), cells_ - 1);
-  last = wraps || !(high < cells_) ? cells_ - 1 : static_cast<int>(high);
+  // One cell more on either side: where a mirrored share ends is known to round-off only.
+  first = wraps ? 0 : static_cast<int>(std::max(low - 1, 0.0));
+  last = wraps ? cells_ - 1 : static_cast<int>(std::min<double>(high + 1, cells_ - 1));
 }
 
 void AxisKernel::shares(double x, AxisShares& out) const {
@@ -71,7 +72,7 @@ void AxisKernel::shares(double x, AxisShares& out) const {
       const double end = std::erf(gaussian_cut / std::sqrt(2.0));
       double below = -end;  // erf at the lower edge of the cell
       for (int index = first; index <= last; ++index) {
-        const double above = index == last ? end : std::erf((index + 1 - s) * scale);
+        const double above = index == last ? end : std::clamp(std::erf((index + 1 - s) * scale), -end, end);
         add(index, (above - below) / (2 * end));
         below = above;
       }

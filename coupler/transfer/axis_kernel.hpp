@@ -34,7 +34,7 @@ class AxisKernel {
 
   /// x: coordinate, m; beyond a wall it counts as on the wall.
   void shares(double x, AxisShares& shares) const;
-  /// First and last cell index that particles with coordinates in [x_min, x_max] can reach.
+  /// Cells first..last hold all that particles with coordinates in [x_min, x_max] can reach.
   void reach(double x_min, double x_max, int& first, int& last) const;
 
  private:

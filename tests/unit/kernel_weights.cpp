@@ -47,7 +47,7 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
   for (const bool periodic : {false, true})
     for (const std::array<int, 3> cells : {std::array<int, 3>{20, 10, 30}, {1, 1, 1}, {2, 1, 5}})
       for (const Kernel kernel : all_kernels)
-        for (const double width : {0.0, 1e-4, 0.013, 0.3}) {
+        for (const double width : {0.0, 1e-4, 0.013, 0.02, 0.3}) {  // 0.02: reaches whole cells far
           const BulkGrid grid({-0.1, 0, 1}, {0.1, 0.1, 1.3}, cells, {periodic, false, periodic});
           const std::vector<Vec3> points = awkward_points(grid);
           const KernelWeights weights = kernel_weights(grid, averaging(kernel, width), points);
