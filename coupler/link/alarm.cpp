@@ -14,11 +14,11 @@ constexpr std::size_t longest = 3000;  // short enough to leave without the rece
 
 }  // namespace
 
-void Alarm::cry(const std::string& reason) noexcept {
+void Alarm::cry(const std::string& reason, int exit_code) noexcept {
   try {
     int size = 0, rank = 0;
     if (MPI_Comm_size(both_, &size) != MPI_SUCCESS || MPI_Comm_rank(both_, &rank) != MPI_SUCCESS) return;
-    texts_.push_back(reason.substr(0, longest));
+    texts_.push_back(static_cast<char>(exit_code) + reason.substr(0, longest));
     const std::string& text = texts_.back();
     for (int to = 0; to < size; ++to) {
       if (to == rank) continue;
@@ -38,10 +38,10 @@ std::optional<Alarm::Cry> Alarm::listen() {
   check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag, both_, &heard, &status), "MPI_Iprobe for cries");
   if (!heard) return std::nullopt;
   check_mpi(MPI_Get_count(&status, MPI_CHAR, &length), "MPI_Get_count of a cry");
-  Cry cry{status.MPI_SOURCE, std::string(length, ' ')};
-  check_mpi(MPI_Recv(cry.reason.data(), length, MPI_CHAR, cry.from, tag, both_, MPI_STATUS_IGNORE),
+  std::string text(length, ' ');
+  check_mpi(MPI_Recv(text.data(), length, MPI_CHAR, status.MPI_SOURCE, tag, both_, MPI_STATUS_IGNORE),
             "MPI_Recv of a cry");
-  return cry;
+  return Cry{status.MPI_SOURCE, text.empty() ? 0 : text[0], text.substr(text.empty() ? 0 : 1)};
 }
 
 void Alarm::hold_on(double seconds) noexcept {

@@ -14,7 +14,8 @@ namespace demvof {
 class Alarm {
  public:
   struct Cry {
-    int from;  // rank in the pair's communicator
+    int from;       // rank in the pair's communicator
+    int exit_code;  // of the crier
     std::string reason;
   };
 
@@ -22,7 +23,7 @@ class Alarm {
   explicit Alarm(MPI_Comm both) : both_(both) {}
 
   /// Does not wait and does not throw; hold_on gives it time to arrive.
-  void cry(const std::string& reason) noexcept;
+  void cry(const std::string& reason, int exit_code) noexcept;
   /// What was heard since the last call, if anything.
   std::optional<Cry> listen();
   /// Keeps MPI going until the cries are under way, at most this long.

@@ -72,12 +72,14 @@ std::string Link::handshake(const std::vector<HandshakeItem>& items, const std::
   const bool fluid = world_.side() == Side::fluid;
   const auto differences = from_rank_0(fmt::format(
       "{}", fmt::join(fluid ? disagreements(mine, theirs) : disagreements(theirs, mine), "\n  ")));
-  if (!differences.empty())
+  if (!differences.empty()) {
+    meet_before_the_end();
     throw InputError(
         fmt::format("foam_side and dem_side do not agree:\n  {}\n"
                     "What to do: give both programs the same case file, and make the OpenFOAM case and the "
                     "LIGGGHTS script fit it.",
                     differences));
+  }
   return json.at("facts");
 }
 

@@ -172,6 +172,22 @@ std::string Link::from_rank_0(std::string text) {
   return text;
 }
 
+void Link::meet(const char* why) {
+  MPI_Request request;
+  check_mpi(MPI_Ibarrier(world_.pair().both, &request), "MPI_Ibarrier");
+  wait_for(request, why);
+}
+
+// A verdict that all ranks of both sides come to ends them all: nobody leaves before everybody has it.
+// Who is through may already be crying while others still wait here, and that is no news to them.
+void Link::meet_before_the_end() {
+  try {
+    meet("the others to hear of the disagreement");
+  } catch (const PartnerFailed&) {
+  } catch (const FellowFailed&) {
+  }
+}
+
 bool Link::agree_to_continue(Continue wish) {
   if (wish == Continue::run && stop_requested()) wish = Continue::stop_requested;
   int gravest[] = {static_cast<int>(wish), in_a_hurry()};
@@ -186,9 +202,7 @@ bool Link::agree_to_continue(Continue wish) {
 
 void Link::close() {
   finish_sends();
-  MPI_Request request;
-  check_mpi(MPI_Ibarrier(world_.pair().both, &request), "MPI_Ibarrier");
-  wait_for(request, "all ranks of both sides to end the run");
+  meet("all ranks of both sides to end the run");
   world_.pair().watch->stand_down();
 }
 

@@ -37,7 +37,7 @@ enum class Continue : int { run = 0, stop_requested = 1, failed = 2 };
 /// talks only to the partner's owners of the same cells. Waiting is passive and bounded.
 ///
 /// Every call may throw PartnerLost (the partner cried for help, was killed, or was silent beyond the
-/// time-out) and RunError (a rank of this side cried for help, an MPI call failed).
+/// time-out), FellowFailed (a rank of this side cried for help) and RunError (an MPI call failed).
 class Link {
  public:
   /// Collective over both programs. Throws InputError when there is no partner.
@@ -99,6 +99,8 @@ class Link {
   void finish_sends();
   void wait_for(MPI_Request& request, const char* what);
   std::string from_rank_0(std::string text);
+  void meet(const char* why);
+  void meet_before_the_end();
 
   const OwnWorld& world_;
   BulkPartition mine_, theirs_;

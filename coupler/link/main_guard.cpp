@@ -29,8 +29,12 @@ int guarded_main(OwnWorld& world, const std::function<int()>& body) {
   } catch (const InputError& error) {
     world.fail(exit_input,
                fmt::format("{}: the input is wrong:\n{}", program_name(world.side()), error.what()));
+  } catch (const PartnerFailed& error) {
+    world.fail(exit_partner_lost, error.what(), true);
   } catch (const PartnerLost& error) {
     world.fail(exit_partner_lost, error.what());
+  } catch (const FellowFailed& error) {
+    world.fail(error.exit_code, error.what(), true);
   } catch (const SolverStopped& error) {
     world.fail(
         exit_failed,

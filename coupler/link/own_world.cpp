@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "coupler/link/failure.hpp"
 #include "coupler/link/mpi_check.hpp"
 #include "coupler/link/pmpi.hpp"
 #include "coupler/link/run_stage.hpp"
@@ -112,19 +111,20 @@ const Process& OwnWorld::partner(int rank) const {
   throw std::logic_error("no such partner rank");
 }
 
-void OwnWorld::cry_for_help(const std::string& reason) const noexcept {
-  pair_->alarm->cry(reason);
+void OwnWorld::cry_for_help(const std::string& reason, int exit_code) const noexcept {
+  pair_->alarm->cry(reason, exit_code);
 }
 
-void OwnWorld::fail(int exit_code, const std::string& message) const {
+void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const {
   using namespace std::chrono_literals;
   if (!claim_failure()) {  // the watch was first and ends the process
     for (int i = 0; i < 100; ++i) std::this_thread::sleep_for(100ms);
     end_now(exit_code);
   }
-  cry_for_help(message);
-  // All ranks of a side mostly fail with the same words: rank 0 says them, and the others wait for it.
-  report_failure(exit_code, message, rank_ != 0 && heard_the_same(message));
+  if (!heard) cry_for_help(message, exit_code);
+  // Rank 0 passes on what others said. All ranks of a side mostly fail with the same words: rank 0 says
+  // them, and the others wait for it.
+  report_failure(exit_code, message, rank_ != 0 && (heard || heard_the_same(message)));
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -162,7 +162,7 @@ void OwnWorld::finalise() {
   pair_->watch->stand_down();
   announce_end();
   // After SIGTERM mpirun does not take part in finalising; it kills whoever waits for it.
-  if (pair_->in_a_hurry)
+  if (pair_->in_a_hurry || (partner_size_ == 0 && in_a_hurry()))
     std::this_thread::sleep_for(std::chrono::milliseconds(50));  // for the others to see the link closed
   else
     check_mpi(PMPI_Finalize(), "MPI_Finalize");

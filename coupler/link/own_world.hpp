@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coupler/link/alarm.hpp"
+#include "coupler/link/failure.hpp"
 #include "coupler/link/process.hpp"
 #include "coupler/link/side.hpp"
 #include "coupler/link/watch.hpp"
@@ -47,10 +48,11 @@ class OwnWorld {
   const Process& partner(int rank) const;
 
   /// Tells every other rank of the pair that this side fails, without waiting for an answer.
-  void cry_for_help(const std::string& reason) const noexcept;
+  void cry_for_help(const std::string& reason, int exit_code = exit_failed) const noexcept;
   /// Ends this process before its time: says why (message), speaks the last words (failure.hpp), lets
   /// the partner hear of it, and exits with the code, without destructors. From the main thread.
-  [[noreturn]] void fail(int exit_code, const std::string& message) const;
+  /// heard: the reason is what another rank said, to all of us.
+  [[noreturn]] void fail(int exit_code, const std::string& message, bool heard = false) const;
   /// The orderly end, collective over both programs: finalises MPI, unless the pair is in a hurry. What
   /// a library does about the end of MPI later is without effect.
   void finalise();

@@ -57,8 +57,8 @@ void Patience::listen() const {
   if (!cry) return;
   const Process& crier = world_.pair().processes[cry->from];
   const std::string text = fmt::format("{}: {} failed:\n{}", world_.self().name(), crier.name(), cry->reason);
-  if (crier.side == world_.side()) throw RunError(text);
-  throw PartnerLost(text);
+  if (crier.side == world_.side()) throw FellowFailed(text, cry->exit_code);
+  throw PartnerFailed(text);
 }
 
 void Patience::give_up(const std::string& waiting_for) const {

@@ -12,8 +12,8 @@ class Patience {
  public:
   Patience(const OwnWorld& world, double time_out_seconds) : world_(world), time_out_(time_out_seconds) {}
 
-  /// Polls done() with growing pauses until it is true. Throws PartnerLost or RunError when a rank of
-  /// the partner or of this side cries for help, and PartnerLost when a process ends or the time-out
+  /// Polls done() with growing pauses until it is true. Throws PartnerLost or FellowFailed when a rank
+  /// of the partner or of this side cries for help, and PartnerLost when a process ends or the time-out
   /// passes; waiting_for: what and from whom, for the message. Returns the seconds waited.
   template <class Done, class Words>
   double wait(Done done, Words waiting_for) {

@@ -15,7 +15,8 @@ namespace demvof {
 ///
 /// When one has ended, a main thread that waits for the partner throws PartnerLost (check); one that
 /// computes is not waited for: the watch itself reports, speaks the last words and ends the process
-/// with exit code 4. mpirun kills the rest of a job one second after the first death.
+/// with exit code 4. mpirun kills the rest of a job one or two seconds after the first death.
+/// Processes on other hosts cannot be seen: their loss shows when the link's time-out passes.
 class Watch {
  public:
   /// others: processes to look after; those that cannot be seen from here are left out.

@@ -67,6 +67,8 @@ int act(const std::string& role, OwnWorld& world) {
 
   Link link(world, 100, role == "impatient" ? 1.0 : 60.0);
   link.swap_text("");
+  if (role == "disagree")
+    link.handshake({{"coupling.window", world.side() == Side::fluid ? "1e-4" : "2e-4", 1e-9}}, "");
   std::ofstream("ready." + id) << std::endl;
   const auto in_window_5 = [&](const std::function<void()>& event) { return windows(link, id, 5, event); };
   const std::map<std::string, std::function<int()>> roles{

@@ -159,6 +159,13 @@ class Endings(unittest.TestCase):
         self.check(pair, [2, 2], ["foam_side: the input is wrong", "dem_side: the input is wrong",
                                   "case.yaml:7: coupling.window = -1"], mpirun_code=2)
 
+    def test_disagreement(self):
+        # Four ranks end at once; mpirun may kill the last.
+        pair = Pair("disagree", "disagree", (2, 2))
+        line = "coupling.window: foam_side has '1e-4', dem_side has '2e-4'"
+        output = self.check(pair, [(2, None)] * 4, [line], mpirun_code=2)
+        self.assertEqual(output.count(line), 2, output)  # each side says it once
+
     # Silence.
     def test_time_out(self):
         pair = Pair("impatient", "compute")

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/link/handshake.hpp"
+
+#include <gtest/gtest.h>
+
+namespace demvof {
+namespace {
+
+bool agree(const HandshakeItem& fluid, const HandshakeItem& particles) {
+  return disagreements({fluid}, {particles}).empty();
+}
+
+TEST(Handshake, ComparesNumbersWithinTheTolerance) {
+  EXPECT_TRUE(agree({"g", "0 0 -9.81", 1e-6}, {"g", "0.0 0 -9.810001", 1e-6}));
+  EXPECT_FALSE(agree({"g", "0 0 -9.81", 1e-6}, {"g", "0 0 -9.8101", 1e-6}));
+  EXPECT_FALSE(
+      agree({"g", "0 0 -9.81", 1e-6}, {"g", "1e-9 0 -9.81", 1e-6}));  // relative: not even a little x
+  EXPECT_TRUE(agree({"g", "0", 1e-6}, {"g", "1e-301", 1e-6}));
+}
+
+TEST(Handshake, TheLargerToleranceCounts) {
+  EXPECT_TRUE(agree({"dt", "1e-4", 1e-12}, {"dt", "1.0001e-4", 1e-3}));
+  EXPECT_TRUE(agree({"dt", "1.0001e-4", 1e-3}, {"dt", "1e-4", 1e-12}));
+}
+
+TEST(Handshake, ComparesTextExactlyWithoutATolerance) {
+  EXPECT_TRUE(agree({"hash", "0a1b", -1}, {"hash", "0a1b", -1}));
+  EXPECT_FALSE(agree({"hash", "1.0", -1}, {"hash", "1", -1}));
+}
+
+TEST(Handshake, NumbersOfDifferentCountOrWithText) {
+  EXPECT_FALSE(agree({"box", "0 0 1", 1}, {"box", "0 0", 1}));
+  EXPECT_FALSE(agree({"box", "0.2 m", 1}, {"box", "0.2", 1}));
+  EXPECT_FALSE(agree({"box", "nan", 1}, {"box", "1", 1}));
+}
+
+TEST(Handshake, NamesBothValuesAndSkipsWhatOneSideGives) {
+  const auto lines = disagreements({{"version", "1.0", -1}, {"mesh", "48000", 0}},
+                                   {{"beads", "3883", 0}, {"version", "1.1", -1}});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "version: foam_side has '1.0', dem_side has '1.1'");
+}
+
+}  // namespace
+}  // namespace demvof
