@@ -175,6 +175,9 @@ void advect_interface(Flow& flow) {
   }
   tmp<surfaceScalarField> liquid_flux;
   if (flow.porosity) {
+    // MULES takes its bounded upwind flux from the present alpha: in a further outer corrector that has
+    // to be the one of the step's start. (interFoam starts from the last iterate, and is not bounded.)
+    if (!flow.pimple.firstIter()) flow.alpha = flow.alpha.oldTime();
     const volScalarField& eps = flow.porosity->eps;
     liquid_flux =
         advance_alpha_in_parts(flow, [&start = eps.oldTime().primitiveField(), &end = eps.primitiveField()](

@@ -103,6 +103,7 @@ struct Flow {
 
 /// Reads an interFoam case. From here on OpenFOAM's errors are exceptions (Foam::error). Throws for
 /// what this solver does not do: time schemes other than Euler, MRF zones, fvOptions, moving meshes.
+/// args is only read. (The destructor of an argList ends the process with exit code 0.)
 std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene);
 
 /// The void fraction at the start: a state, not a change. eps: one value per cell.
@@ -148,7 +149,7 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow);
 /// exactly rho g in a fluid at rest.
 tmp<volVectorField> pressure_gradient(const Flow& flow);
 
-/// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s.
-tmp<volScalarField> dynamic_viscosity(const Flow& flow);
+/// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s, one value per cell.
+tmp<scalarField> dynamic_viscosity(const Flow& flow);
 
 }  // namespace demvof

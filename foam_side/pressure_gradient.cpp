@@ -14,8 +14,8 @@ tmp<volVectorField> pressure_gradient(const Flow& flow) {
          flow.rho * flow.g;
 }
 
-tmp<volScalarField> dynamic_viscosity(const Flow& flow) {
-  return flow.rho * flow.turbulence->nuEff();
+tmp<scalarField> dynamic_viscosity(const Flow& flow) {
+  return flow.rho.primitiveField() * flow.turbulence->nuEff()->primitiveField();
 }
 
 }  // namespace demvof
