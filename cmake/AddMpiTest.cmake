@@ -5,6 +5,7 @@ demvof_add_mpi_test(NAME name RANKS n... LABELS label... TIMEOUT seconds COMMAND
 
 One test per entry of RANKS, called name.n when there are several. PARTNER_COMMAND starts beside it in the same
 mpirun, as `mpirun -np n COMMAND : -np m PARTNER_COMMAND` (m is 1 when not given).
+DEMVOF_TIMEOUT_FACTOR stretches the time limits of slow builds.
 LONG tests run only with `ctest -C verification` (tests/Alltest --verification).
 ]]
 include_guard(GLOBAL)
@@ -20,6 +21,8 @@ set(DEMVOF_MPI_ENVIRONMENT
 if(OpenFOAM_PROJECT_DIR)
   list(APPEND DEMVOF_MPI_ENVIRONMENT WM_PROJECT_DIR=${OpenFOAM_PROJECT_DIR})
 endif()
+
+set(DEMVOF_TIMEOUT_FACTOR 1 CACHE STRING "Factor on the time limits of tests that start ranks")
 
 function(demvof_add_mpi_test)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "LONG" "NAME;TIMEOUT;PARTNER_RANKS"
@@ -49,7 +52,8 @@ function(demvof_add_mpi_test)
   endif()
   demvof_program(program ${ARG_COMMAND})
   # mpirun gives up before ctest does: ctest would kill mpirun alone and leave its ranks running.
-  math(EXPR ctest_timeout "${ARG_TIMEOUT} + 15")
+  math(EXPR timeout "${ARG_TIMEOUT} * ${DEMVOF_TIMEOUT_FACTOR}")
+  math(EXPR ctest_timeout "${timeout} + 15")
 
   list(LENGTH ARG_RANKS variants)
   foreach(ranks IN LISTS ARG_RANKS)
@@ -59,7 +63,7 @@ function(demvof_add_mpi_test)
     endif()
     math(EXPR processors "${ranks} + ${partner_ranks}")
     add_test(NAME ${name}
-             COMMAND ${MPIEXEC_EXECUTABLE} --timeout ${ARG_TIMEOUT} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${program}
+             COMMAND ${MPIEXEC_EXECUTABLE} --timeout ${timeout} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${program}
                      ${partner} ${configurations})
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ctest_timeout} PROCESSORS ${processors}
                                             ENVIRONMENT "${DEMVOF_MPI_ENVIRONMENT}")
