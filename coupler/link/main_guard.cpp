@@ -15,8 +15,7 @@ namespace demvof {
 namespace {
 
 std::string stopped(const OwnWorld& world, const std::string& why) {
-  return fmt::format("{} rank {} stopped {}:\n{}", program_name(world.side()), world.rank(),
-                     run_stage().describe(), why);
+  return fmt::format("{} stopped {}:\n{}", program_name(world.side()), run_stage().describe(), why);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coupler/link/own_world.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <exception>
@@ -124,7 +126,8 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
   if (!heard) cry_for_help(message, exit_code);
   // Rank 0 passes on what others said. All ranks of a side mostly fail with the same words: rank 0 says
   // them, and the others wait for it.
-  report_failure(exit_code, message, rank_ != 0 && (heard || heard_the_same(message)));
+  report_failure(exit_code, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
+                 rank_ != 0 && (heard || heard_the_same(message)));
   const auto begin = std::chrono::steady_clock::now();
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -10,6 +10,7 @@
 
 #include "both_sides.hpp"
 #include "coupler/config/read_case.hpp"
+#include "world_user.hpp"
 
 namespace demvof {
 namespace {
@@ -83,6 +84,13 @@ TEST(OwnWorld, HoldsTheRanksOfOneProgramOnly) {
   const Process& leader = world().pair().processes[world().partner_leader()];
   EXPECT_NE(leader.side, world().side());
   EXPECT_EQ(leader.rank, 0);
+}
+
+TEST(OwnWorld, IsTheWorldOfASharedLibrary) {
+  EXPECT_EQ(world_user_size(), world().size());
+  EXPECT_EQ(world_user_sum(1), world().size());
+  EXPECT_EQ(world_user_largest_rank(), world().size() - 1);
+  EXPECT_THROW(world_user_gives_up(), SolverStopped);
 }
 
 TEST(OwnWorld, LibrariesMayInitialiseAgain) {
