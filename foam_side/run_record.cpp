@@ -102,7 +102,7 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
   if (!window.particles.is_null()) {
     const json& p = window.particles;
     const bool owes = hands_back_left_over(parameters_.coupling.exchange);
-    balance.drag_to_particles = vec3(p.at("drag_impulse")) + vec3(p.at("held_impulse"));
+    balance.drag_to_particles = vec3(p.at("drag_impulse"));
     balance.left_over_to_particles = vec3(p.at("left_over_given"));
     balance.explicit_to_fluid = window.explicit_impulse;
     balance.implicit_to_fluid = window.implicit_impulse;
@@ -110,7 +110,8 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
     balance.particle_momentum = vec3(p.at("momentum"));
     balance.external = vec3(p.at("drag_impulse")) + balance.left_over_to_particles +
                        vec3(p.at("pressure_impulse")) + vec3(p.at("contact_impulse")) +
-                       vec3(p.at("gravity_impulse")) + (balance.pending - pending_);
+                       vec3(p.at("gravity_impulse")) - vec3(p.at("held_impulse")) +
+                       (balance.pending - pending_);
     pending_ = balance.pending;
     balance.bulk_solid_volume = p.at("solid_volume_bulk");
     balance.particle_volume = p.at("solid_volume");
