@@ -9,11 +9,20 @@ the report is. Exit status: 0 done, 2 a folder is not that of a run, 3 the repor
 Needs matplotlib; VTK's Python modules for the pictures of the surface (left out, and said so, without them).
 """
 import argparse
+import os
 import pathlib
 import sys
 
-from reporting import page, tables
-from reporting.run import NoRun, Run
+SYSTEM_PYTHON = "/usr/bin/python3"  # has the distribution's modules, whichever python3 comes first in PATH
+
+try:
+    from reporting import page, tables
+    from reporting.run import NoRun, Run
+except ImportError as error:
+    if sys.executable != SYSTEM_PYTHON and os.access(SYSTEM_PYTHON, os.X_OK):
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+    print(f"report: {error} (Debian: python3-matplotlib)", file=sys.stderr)
+    sys.exit(3)
 
 
 def main():

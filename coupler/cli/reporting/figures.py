@@ -21,22 +21,23 @@ WATER = LinearSegmentedColormap.from_list("water", ["#f7fafc", "#a9cdea"])
 SPEED = pyplot.get_cmap("inferno")
 SIZE = (4.8, 3.3)  # inches; shown 380 px wide or wider, where 10 points are still readable
 
-# Quantities that belong in one figure: (title, names, logarithmic axis).
+# Quantities that belong in one figure: (title, names, kind of axis). Of a constant only its change is worth a look.
+LINEAR, LOGARITHMIC, CHANGE = "linear", "logarithmic", "change"
 GROUPS = [
     ("Energy", ["mechanical_energy", "potential_energy", "kinetic_energy", "particle_potential_energy",
-                "particle_kinetic_energy"], False),
-    ("Kinetic over initial potential energy of the fluids", ["kinetic_energy_ratio"], False),
+                "particle_kinetic_energy"], LINEAR),
+    ("Kinetic over initial potential energy of the fluids", ["kinetic_energy_ratio"], LINEAR),
     ("Integral of u.u", ["velocity_squared_integral", "velocity_squared_integral_liquid",
-                         "velocity_squared_integral_gas", "velocity_squared_integral_x"], True),
-    ("Largest fluid speed", ["max_speed"], False),
-    ("Where the largest speed is", ["max_speed_x", "max_speed_y", "max_speed_z"], False),
-    ("Integral of p squared", ["pressure_squared_integral"], True),
-    ("Fronts", ["liquid_front", "solid_front"], False),
-    ("Mean level", ["mean_level"], False),
-    ("Liquid volume", ["liquid_volume"], False),
-    ("Liquid held in interface cells", ["liquid_in_interface_cells"], False),
-    ("Solid volume on the mesh", ["solid_volume_mesh"], False),
-    ("Particles", ["particles"], False),
+                         "velocity_squared_integral_gas", "velocity_squared_integral_x"], LOGARITHMIC),
+    ("Largest fluid speed", ["max_speed"], LINEAR),
+    ("Where the largest speed is", ["max_speed_x", "max_speed_y", "max_speed_z"], LINEAR),
+    ("Integral of p squared", ["pressure_squared_integral"], LOGARITHMIC),
+    ("Fronts", ["liquid_front", "solid_front"], LINEAR),
+    ("Mean level", ["mean_level"], LINEAR),
+    ("Liquid volume, relative change", ["liquid_volume"], CHANGE),
+    ("Liquid held in interface cells", ["liquid_in_interface_cells"], LINEAR),
+    ("Solid volume on the mesh, relative change", ["solid_volume_mesh"], CHANGE),
+    ("Particles", ["particles"], LINEAR),
 ]
 
 
@@ -132,32 +133,35 @@ def histories(runs):
     """[(title, figure)]: what the runs recorded, quantities that belong together in one figure."""
     known = {name for _, names, _ in GROUPS for name in names}
     rest = [name for run in runs for name in run.history if name not in known and name != "time"]
-    groups = GROUPS + [(name.replace("_", " "), [name], False) for name in dict.fromkeys(rest)]
+    groups = GROUPS + [(name.replace("_", " "), [name], LINEAR) for name in dict.fromkeys(rest)]
     made = []
-    for title, names, logarithmic in groups:
+    for title, names, axis in groups:
         if len(runs) > 1:  # one quantity, several runs
             parts = [(name.replace("_", " "), [name]) for name in names]
         else:
             parts = [(title, names)]
         for part_title, part_names in parts:
-            figure = history(runs, part_names, logarithmic)
+            figure = history(runs, part_names, axis)
             if figure:
                 made.append((part_title, figure))
     return made
 
 
-def history(runs, names, logarithmic):
+def history(runs, names, axis):
     curves = [(run, name) for run in runs for name in names if len(run.history.get(name, [])) > 0]
     if not curves:
         return None
     figure, axes = pyplot.subplots(figsize=SIZE, layout="constrained")
     for i, (run, name) in enumerate(curves):
         label = run.name if len(runs) > 1 else name.replace("_", " ")
-        axes.plot(run.times, run.history[name], color=COLOURS[i % len(COLOURS)], label=label)
-    unit = curves[0][0].units.get(curves[0][1], "")
+        values = run.history[name]
+        if axis == CHANGE and values[0] != 0:
+            values = values / values[0] - 1
+        axes.plot(run.times, values, color=COLOURS[i % len(COLOURS)], label=label)
+    unit = "-" if axis == CHANGE else curves[0][0].units.get(curves[0][1], "-")
     axes.set_xlabel("t [s]")
     axes.set_ylabel(f"[{unit}]" if unit != "-" else "")
-    if logarithmic and any((run.history[name] > 0).any() for run, name in curves):
+    if axis == LOGARITHMIC and any((run.history[name] > 0).any() for run, name in curves):
         axes.set_yscale("log")
     if len(curves) > 1:
         axes.legend()

@@ -1,0 +1,246 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report, of whole runs and of what is left of broken ones. Runs are made here: a box of 4 x 2 x 4 OpenFOAM
+cells, liquid where z < 0.5 m, and two particles."""
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "coupler" / "cli" / "report.py"
+sys.path.insert(0, str(SCRIPT.parent))
+
+from reporting import fields, run, tables  # noqa: E402
+
+CELLS = (4, 2, 4)  # over a box of 1 x 0.5 x 1 m
+
+
+def foam_file(path, kind, body):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    header = f"FoamFile\n{{\n version 2.0;\n format ascii;\n class {kind};\n object {path.name};\n}}\n"
+    path.write_text(header + body)
+
+
+def write_mesh(folder):
+    """A box of hexahedra in OpenFOAM's format: faces inside first, in the order of their owners."""
+    nx, ny, nz = CELLS
+
+    def point(i, j, k):
+        return i + (nx + 1) * (j + (ny + 1) * k)
+
+    def cell(i, j, k):
+        return i + nx * (j + ny * k)
+
+    points = [(i / nx, 0.5 * j / ny, k / nz) for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
+    corners = {  # of the face towards lower and upper x, y, z of cell (0, 0, 0), normals outward
+        (0, 0): [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0)], (0, 1): [(1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1)],
+        (1, 0): [(0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1)], (1, 1): [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0)],
+        (2, 0): [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)], (2, 1): [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]}
+    inside, outside = [], []
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                for axis in range(3):
+                    for end in (0, 1):
+                        step = [0, 0, 0]
+                        step[axis] = 1 if end else -1
+                        other = (i + step[0], j + step[1], k + step[2])
+                        face = [point(i + a, j + b, k + c) for a, b, c in corners[axis, end]]
+                        if all(0 <= n < size for n, size in zip(other, CELLS)):
+                            if end:
+                                inside.append((cell(i, j, k), cell(*other), face))
+                        else:
+                            outside.append((cell(i, j, k), face))
+    inside.sort(key=lambda entry: entry[:2])
+    faces = [face for _, _, face in inside] + [face for _, face in outside]
+    owner = [first for first, _, _ in inside] + [first for first, _ in outside]
+    mesh = folder / "constant" / "polyMesh"
+    rows = lambda values: f"{len(values)}\n(\n" + "\n".join(values) + "\n)\n"  # noqa: E731
+    foam_file(mesh / "points", "vectorField", rows([f"({x} {y} {z})" for x, y, z in points]))
+    foam_file(mesh / "faces", "faceList", rows([f"4({' '.join(map(str, face))})" for face in faces]))
+    foam_file(mesh / "owner", "labelList", rows([str(n) for n in owner]))
+    foam_file(mesh / "neighbour", "labelList", rows([str(second) for _, second, _ in inside]))
+    foam_file(mesh / "boundary", "polyBoundaryMesh",
+              f"1\n(\n walls {{ type wall; nFaces {len(outside)}; startFace {len(inside)}; }}\n)\n")
+
+
+def write_fluid(folder):
+    write_mesh(folder)
+    foam_file(folder / "system" / "controlDict", "dictionary", "startTime 0; endTime 0.2; deltaT 0.1; writeInterval 0.1;\n")
+    foam_file(folder / "constant" / "g", "uniformDimensionedVectorField",
+              "dimensions [0 1 -2 0 0 0 0];\nvalue (0 0 -9.81);\n")
+    per_layer = CELLS[0] * CELLS[1]
+    alpha = [1.0 if k < CELLS[2] / 2 else 0.0 for k in range(CELLS[2]) for _ in range(per_layer)]
+    for time in ("0", "0.1", "0.2"):
+        foam_file(folder / time / "alpha.water", "volScalarField",
+                  f"dimensions [0 0 0 0 0 0 0];\ninternalField nonuniform List<scalar>\n{len(alpha)}\n(\n"
+                  + "\n".join(map(str, alpha)) + "\n)\n;\nboundaryField { walls { type zeroGradient; } }\n")
+
+
+def write_particles(folder):
+    """Two particles, one on the mid-plane y = 0.25 m and one far from it."""
+    folder.mkdir()
+    entries = ""
+    for i, time in enumerate((0, 0.1, 0.2)):
+        name = f"particles_{i:06d}.vtp"
+        entries += f'<DataSet timestep="{time}" file="{name}"/>'
+        array = lambda name, size, text: (  # noqa: E731
+            f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{size}" format="ascii">{text}</DataArray>')
+        (folder / name).write_text(
+            '<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="2" NumberOfVerts="0" NumberOfLines="0" '
+            'NumberOfStrips="0" NumberOfPolys="0"><PointData>' + array("radius", 1, "0.02 0.03")
+            + array("velocity", 3, f"3 0 4 {time} 0 0") + "</PointData><Points>"
+            + array("Points", 3, "0.25 0.26 0.125 0.75 0.4 0.5") + "</Points></Piece></PolyData></VTKFile>")
+    (folder / "particles.pvd").write_text(f'<VTKFile type="Collection" version="0.1"><Collection>{entries}'
+                                          "</Collection></VTKFile>")
+
+
+RESULTS = {"status": "completed", "version": "1.2.3", "configuration_hash": "abc", "command": "foam_side case.yaml",
+           "configuration": {"coupling": {"end_time": 0.2, "window": 1e-3}, "bulk_grid": {"lower": [0, 0, 0]},
+                             "output": {"pictures": [0, 0.2]}},
+           "machine": {"cpu": "a processor", "cores": 2}, "ranks": {"fluid": 1, "particles": 1},
+           "wall_seconds": {"total": 200, "fluid": 150, "particles": 30, "exchange": 2, "waiting": 180},
+           "peak_memory_bytes": {"fluid": 2e8, "particles": 1e8}, "steps": {"windows": 200, "fluid": 200, "particles": 2000},
+           "cells": {"fine_min": 32, "fine_max": 32, "bulk": 4, "bulk_active_max": 2},
+           "particles": {"initial": 2, "inserted": 0, "left": 0, "lost": 0, "final": 2},
+           "conservation": {"exchange": 1e-16, "momentum": None, "solid_volume": 0, "liquid_volume": 2e-9},
+           "scene": [{"decision": "surface tension", "on": False, "reason": "There is <none>."}],
+           "quantities": {"liquid_front": 0.5}, "warnings": []}
+
+
+def write_run(folder, **changes):
+    folder.mkdir(parents=True)
+    write_fluid(folder / "fluid")
+    write_particles(folder / "particles")
+    (folder / "history.csv").write_text("time,liquid_front,liquid_volume\n# s,m,m3\n0,0.1,0.25\n0.1,0.3,0.25\n0.2,0.5,0.25\n")
+    (folder / "results.json").write_text(json.dumps({**RESULTS, **changes}))
+    return folder
+
+
+def report(*folders):
+    """(exit code, what was printed, the page)."""
+    done = subprocess.run([sys.executable, SCRIPT, *folders], capture_output=True, text=True, cwd=folders[0], check=False)
+    page = folders[0] / "report.html"
+    return done.returncode, done.stdout + done.stderr, page.read_text() if page.exists() else ""
+
+
+class Reports(unittest.TestCase):
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.place)
+
+    def test_a_whole_run(self):
+        code, printed, page = report(write_run(self.place / "a"))
+        self.assertEqual(code, 0, printed)
+        self.assertIn("report.html", printed)
+        self.assertNotIn("Not shown", page)
+        for text in ("completed", "t = 0 s", "t = 0.2 s", "3 min 20 s", "There is &lt;none&gt;.", "a processor", "2.0e-09",
+                     "75.0 %", 'alt="fronts against time"', "relative change"):
+            self.assertIn(text, page)
+        self.assertNotIn("t = 0.1 s", page)  # not among output.pictures
+        self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained
+
+    def test_the_plane_shows_liquid_surface_and_particles_where_they_are(self):
+        section = fields.read(write_run(self.place / "a"), 0.2)
+        self.assertEqual(section.normal, "y")
+        self.assertAlmostEqual(section.position, 0.25)
+        numpy.testing.assert_allclose(section.lower, [0, 0])
+        numpy.testing.assert_allclose(section.upper, [1, 1])
+        self.assertEqual(len(section.polygons), CELLS[0] * CELLS[2])
+        for polygon, liquid in zip(section.polygons, section.liquid):
+            self.assertEqual(liquid, 1 if polygon[:, 1].mean() < 0.5 else 0)
+        for line in section.surface:  # between the layers with alpha = 1 and 0
+            numpy.testing.assert_allclose(line[:, 1], 0.5, atol=1e-6)
+        numpy.testing.assert_allclose(section.centres, [[0.25, 0.125]])
+        numpy.testing.assert_allclose(section.radii, [0.02])
+        numpy.testing.assert_allclose(section.speeds, [5])
+
+    def test_a_failed_run_says_where_and_why(self):
+        failure = {"side": "particles", "stage": "DEM steps", "time": 0.15, "message": "Lost atoms <3>"}
+        folder = write_run(self.place / "a", status="failed", failure=failure)
+        (folder / "particles.log").write_text("line 1\nERROR: Lost atoms\n")
+        code, _, page = report(folder)
+        self.assertEqual(code, 0)
+        for text in ("The particles side failed in DEM steps at t = 0.15 s", "Lost atoms &lt;3&gt;", "ERROR: Lost atoms"):
+            self.assertIn(text, page)
+
+    def test_a_run_without_results_shows_how_far_it_came(self):
+        folder = write_run(self.place / "a")
+        (folder / "results.json").unlink()
+        (folder / "progress.json").write_text('{"time": 0.25, "end_time": 0.5}')
+        code, printed, page = report(folder)
+        self.assertEqual(code, 0)
+        self.assertIn("unfinished", page)
+        self.assertIn("0.25 s of 0.5 s", printed)
+
+    def test_each_part_may_be_missing_or_cut_off(self):
+        def cut(path, size=60):
+            path.write_bytes(path.read_bytes()[:size])
+
+        damages = {
+            "no history": lambda f: (f / "history.csv").unlink(),
+            "no row of history": lambda f: (f / "history.csv").write_text("time,liquid_front\n# s,m\n"),
+            "half a row of history": lambda f: (f / "history.csv").write_text("time,liquid_front\n# s,m\n0,0.1\n0.1"),
+            "half of the results": lambda f: cut(f / "results.json"),
+            "no fluid": lambda f: shutil.rmtree(f / "fluid"),
+            "no mesh": lambda f: shutil.rmtree(f / "fluid" / "constant"),
+            "half a field": lambda f: cut(f / "fluid" / "0.2" / "alpha.water", 300),
+            "a time without fields": lambda f: (f / "fluid" / "0.2" / "alpha.water").unlink(),
+            "no particles": lambda f: shutil.rmtree(f / "particles"),
+            "half a particle file": lambda f: cut(f / "particles" / "particles_000002.vtp"),
+            "half a particle index": lambda f: cut(f / "particles" / "particles.pvd"),
+        }
+        for damage, inflict in damages.items():
+            with self.subTest(damage):
+                folder = write_run(self.place / damage.replace(" ", "_"))
+                inflict(folder)
+                code, printed, page = report(folder)
+                self.assertEqual(code, 0, printed)
+                self.assertTrue(page.rstrip().endswith("</html>"))
+        with self.subTest("a field that cannot be read leaves the other pictures alone"):
+            page = (self.place / "a_time_without_fields" / "report.html").read_text()
+            self.assertIn('alt="surface at 0 s"', page)
+            self.assertNotIn('alt="surface at 0.2 s"', page)
+
+    def test_several_runs_are_compared(self):
+        one = write_run(self.place / "one")
+        configuration = {**RESULTS["configuration"], "coupling": {"end_time": 0.2, "window": 5e-4}}
+        two = write_run(self.place / "two", configuration=configuration, quantities={"liquid_front": 0.75})
+        code, printed, page = report(one, two)
+        self.assertEqual(code, 0, printed)
+        self.assertIn("coupling.window", page)
+        self.assertNotIn("coupling.end_time</td>", page)  # the same in both
+        with open(one / "results.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["coupling.window"] for row in rows], ["0.001", "0.0005"])
+        self.assertEqual([row["quantities.liquid_front"] for row in rows], ["0.5", "0.75"])
+        self.assertEqual([row["status"] for row in rows], ["completed", "completed"])
+
+    def test_a_folder_of_something_else_is_refused(self):
+        code, printed, page = report(self.place)
+        self.assertEqual((code, page), (2, ""))
+        self.assertIn("not the folder of a run", printed)
+
+    def test_history_reads_back_with_units(self):
+        path = self.place / "history.csv"
+        path.write_text("time,liquid_front,particles\n# s,m,-\n0,0.05,nan\n0.1,0.0625,3883\n")
+        columns, units = run.read_history(path)
+        self.assertEqual(units, {"time": "s", "liquid_front": "m", "particles": "-"})
+        numpy.testing.assert_array_equal(columns["liquid_front"], [0.05, 0.0625])
+        self.assertTrue(numpy.isnan(columns["particles"][0]))
+
+    def test_numbers_for_people(self):
+        self.assertEqual(tables.amount(0.123456, "m"), "0.1235 m")
+        self.assertEqual(tables.amount(511104), "511104")
+        self.assertEqual(tables.amount(None, "m"), "-")
+        self.assertEqual([tables.duration(t) for t in (0.5, 59, 61, 3720)], ["0.5 s", "59 s", "1 min 01 s", "1 h 02 min"])
+
+
+if __name__ == "__main__":
+    unittest.main()
