@@ -4,7 +4,8 @@
 
 report.py RUN [RUN ...]: each RUN is the output folder of a run. The report is one self-contained file in the
 first folder; with several runs results.csv beside it has one row per run. Prints a short table and where
-the report is. Exit status: 0 done, 2 a folder is not that of a run, 3 the report could not be written.
+the report is. --strip FILE: the first run's pictures side by side in one file, instead of a report.
+Exit status: 0 done, 2 a folder is not that of a run, 3 the report could not be written.
 
 Needs matplotlib; VTK's Python modules for the pictures of the surface (left out, and said so, without them).
 """
@@ -16,7 +17,7 @@ import sys
 SYSTEM_PYTHON = "/usr/bin/python3"  # has the distribution's modules, whichever python3 comes first in PATH
 
 try:
-    from reporting import page, tables
+    from reporting import figures, page, tables
     from reporting.run import NoRun, Run
 except ImportError as error:
     if sys.executable != SYSTEM_PYTHON and os.access(SYSTEM_PYTHON, os.X_OK):
@@ -28,7 +29,9 @@ except ImportError as error:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="+", type=pathlib.Path, metavar="RUN")
-    folders = parser.parse_args().runs
+    parser.add_argument("--strip", type=pathlib.Path, metavar="FILE")
+    arguments = parser.parse_args()
+    folders = arguments.runs
     try:
         runs = [Run(folder) for folder in folders]
     except NoRun as error:
@@ -36,10 +39,13 @@ def main():
         return 2
     report = folders[0] / "report.html"
     try:
+        if arguments.strip:
+            figures.strip(runs[0]).savefig(arguments.strip, dpi=130)
+            return 0
         report.write_text(page.html(runs), encoding="utf-8")
         if len(runs) > 1:
             tables.write_csv(runs, folders[0] / "results.csv")
-    except OSError as error:
+    except (OSError, RuntimeError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 3
     print(tables.text(runs))

@@ -51,9 +51,9 @@ def picture_times(run, available):
     return sorted(chosen)
 
 
-def pictures(run):
-    """The surface and the particles on the mid-plane: [(time, figure)], a line that says what is shown, and the
-    reasons why a time is not shown. Throws RuntimeError when there is nothing at all."""
+def read_sections(run):
+    """The mid-plane at the times shown, {time: Section}; the largest speed of a particle in them (None without
+    particles); the reasons why a time is missing. Throws RuntimeError when there is nothing at all."""
     times = picture_times(run, fields.read(run.folder))
     if not times:
         raise RuntimeError("the run left no time folders")
@@ -66,6 +66,13 @@ def pictures(run):
     if not sections:
         raise RuntimeError("; ".join(reasons))
     fastest = max((section.speeds.max() for section in sections.values() if len(section.speeds)), default=None)
+    return sections, fastest, reasons
+
+
+def pictures(run):
+    """The surface and the particles on the mid-plane: [(time, figure)], a line that says what is shown, and what
+    could not be."""
+    sections, fastest, reasons = read_sections(run)
     some = next(iter(sections.values()))
     caption = (f"Cut through the middle ({some.normal} = {some.position:.4g} m). Blue: liquid fraction; line: where it "
                "is 0.5.")
@@ -75,10 +82,32 @@ def pictures(run):
     return [(time, picture(section, fastest)) for time, section in sections.items()], caption, reasons
 
 
-def picture(section, fastest):
+def panel_size(section, width):
+    """Inches: the plane's shape, within reason."""
     size = section.upper - section.lower
-    width = 3.2
-    figure, axes = pyplot.subplots(figsize=(width, min(7, max(1.5, width * size[1] / size[0]))))
+    return width, min(2.2 * width, max(0.45 * width, width * size[1] / size[0]))
+
+
+def picture(section, fastest):
+    figure, axes = pyplot.subplots(figsize=panel_size(section, 3.2))
+    draw(axes, section, fastest)
+    figure.subplots_adjust(0.01, 0.01, 0.99, 0.99)
+    return figure
+
+
+def strip(run):
+    """All pictures of a run side by side, with their times."""
+    sections, fastest, _ = read_sections(run)
+    width, height = panel_size(next(iter(sections.values())), 2.0)
+    figure, panels = pyplot.subplots(1, len(sections), figsize=(width * len(sections), height + 0.3), squeeze=False,
+                                     layout="constrained")
+    for axes, (time, section) in zip(panels[0], sections.items()):
+        draw(axes, section, fastest)
+        axes.set_title(f"{time:.2g} s", fontsize=10)
+    return figure
+
+
+def draw(axes, section, fastest):
     axes.add_collection(PolyCollection(section.polygons, array=section.liquid, cmap=WATER, norm=Normalize(0, 1),
                                        edgecolors="face", linewidths=0.2))
     axes.add_collection(LineCollection(section.surface, colors=COLOURS[0], linewidths=1.1))
@@ -92,9 +121,7 @@ def picture(section, fastest):
     axes.set_ylim(section.lower[1], section.upper[1])
     axes.set_aspect("equal")
     axes.set_axis_off()
-    figure.subplots_adjust(0.01, 0.01, 0.99, 0.99)
     axes.add_patch(pyplot.Rectangle((0, 0), 1, 1, transform=axes.transAxes, fill=False, edgecolor="#8a949e"))
-    return figure
 
 
 def fronts(runs):
