@@ -17,9 +17,12 @@
 namespace demvof {
 namespace {
 
-constexpr double seconds_for_the_partner = 1;  // to hear of a failure and write its own results
-constexpr double seconds_to_linger = 0.3;      // for the others to find the first death, not ours
-constexpr double seconds_for_the_crier = 3;    // to end first, so that mpirun reports its exit code
+using namespace std::chrono_literals;
+
+// Between saying why a process fails and its end.
+constexpr auto time_for_the_partner = 1000ms;  // to hear of it and write its own results
+constexpr auto time_for_the_crier = 3000ms;    // to end first, so that mpirun reports its exit code
+constexpr auto time_to_linger = 300ms;         // for the others to find the first death, not ours
 
 OwnWorld* current = nullptr;
 std::thread::id main_thread;
@@ -118,7 +121,6 @@ void OwnWorld::cry_for_help(const std::string& reason, int exit_code) const noex
 }
 
 void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const {
-  using namespace std::chrono_literals;
   if (!claim_failure()) {  // the watch was first and ends the process
     for (int i = 0; i < 100; ++i) std::this_thread::sleep_for(100ms);
     end_now(exit_code);
@@ -128,25 +130,19 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
   // them, and the others wait for it.
   report_failure(exit_code, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
                  rank_ != 0 && (heard || heard_the_same(message)));
-  const auto begin = std::chrono::steady_clock::now();
-  const auto elapsed = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
-  pair_->alarm->hold_on(seconds_for_the_partner);
-  if (exit_code == exit_partner_lost) {
-    const auto crier_ended = [&] { return pair_->watch->someone_lost() || stop_requested(); };
-    while (elapsed() < (crier_ended() ? seconds_to_linger : seconds_for_the_crier))
-      std::this_thread::sleep_for(5ms);
-  } else {
-    while (elapsed() < seconds_for_the_partner) std::this_thread::sleep_for(5ms);
-  }
+  pair_->alarm->hold_on(1.0);
+  const auto until = std::chrono::steady_clock::now() + (heard ? time_for_the_crier : time_for_the_partner);
+  const bool first = !heard && exit_code != exit_partner_lost;
+  const auto others_end = [&] { return pair_->watch->someone_lost() || stop_requested(); };
+  while (std::chrono::steady_clock::now() < until && (first || !others_end()))
+    std::this_thread::sleep_for(5ms);
+  if (!first) std::this_thread::sleep_for(time_to_linger);
   // Not MPI_Abort: it kills a partner that is still writing its results, and hangs when mpirun is
   // already at it. mpirun treats an exit without MPI_Finalize as an abort, but leaves a second.
   end_now(exit_code);
 }
 
 bool OwnWorld::heard_the_same(const std::string& reason) const {
-  using namespace std::chrono_literals;
   for (int i = 0; i < 60; ++i) {
     try {
       if (const auto cry = pair_->alarm->listen())
