@@ -102,8 +102,4 @@ class Dem {
   int integrated_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
 };
 
-/// Number of DEM steps in a window. Throws InputError, naming both values and the nearest windows
-/// that fit, when the window is no whole number >= 1 of steps (relative 1e-9).
-int steps_per_window(double window, double time_step);
-
 }  // namespace demvof

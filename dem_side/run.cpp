@@ -19,6 +19,7 @@
 #include "dem_side/particle_grid.hpp"
 #include "dem_side/report.hpp"
 #include "dem_side/survivor.hpp"
+#include "dem_side/window_steps.hpp"
 
 namespace demvof {
 namespace {

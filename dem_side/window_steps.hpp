@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace demvof {
+
+/// Number of DEM steps in a window. Throws InputError, naming both values and the nearest windows
+/// that fit, when the window is no whole number >= 1 of steps (relative 1e-9).
+int steps_per_window(double window, double time_step);
+
+}  // namespace demvof
