@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of the real pair for the tests of this folder: a case folder of their own and `demvof run` on it."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SMALL_MESH = "nx 20; ny 10; nz 30;"  # 6000 cells of 10 mm: as fine as the bulk grid
+
+
+def dam_break(folder):
+    """A copy of the dam break with a mesh of 6000 cells; returns its case file."""
+    case = pathlib.Path(folder) / "case"
+    shutil.rmtree(folder, ignore_errors=True)
+    source = ROOT / "cases" / "three_phase_dam_break"
+    case.mkdir(parents=True)
+    for part in ("fluid", "particles"):
+        shutil.copytree(source / part, case / part)
+    shutil.copy(source / "case.yaml", case)
+    mesh = case / "fluid" / "system" / "blockMeshDict"
+    head, tail = mesh.read_text().split("nx 40;")
+    mesh.write_text(head + SMALL_MESH + tail.split("nz 60;")[1])
+    return case / "case.yaml"
+
+
+def replace(file, old, new):
+    """Replaces a text that must be there."""
+    text = pathlib.Path(file).read_text()
+    assert old in text, f"{old!r} is not in {file}"
+    pathlib.Path(file).write_text(text.replace(old, new))
+
+
+class Pair:
+    """One `demvof run` in a session of its own."""
+
+    def __init__(self, demvof, case_file, out, *options):
+        self.out = pathlib.Path(out)
+        self.process = subprocess.Popen(
+            [demvof, "run", str(case_file), "--out", str(out), "--force", *options],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+
+    def wait(self, seconds=300):
+        """Exit code and everything printed; kills the run and fails when it takes longer."""
+        try:
+            text, _ = self.process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            text, _ = self.process.communicate()
+            raise AssertionError(f"the run did not end within {seconds} s:\n{text}") from None
+        return self.process.returncode, text
+
+    def wait_for_window(self, number, seconds=120):
+        """Until the run has done a number of windows."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and self.process.poll() is None:
+            try:
+                if json.loads((self.out / "progress.json").read_text())["window"] >= number:
+                    return
+            except (OSError, ValueError):
+                pass
+            time.sleep(0.05)
+        _, text = self.wait(1) if self.process.poll() is not None else (None, "")
+        raise AssertionError(f"the run did not reach window {number}:\n{text}")
+
+    def pids(self, program):
+        """Process numbers of this run's program."""
+        found = []
+        for entry in pathlib.Path("/proc").iterdir():
+            try:
+                words = (entry / "cmdline").read_bytes().split(b"\0")
+            except OSError:
+                continue
+            if (entry.name.isdigit() and pathlib.Path(os.fsdecode(words[0])).name == program
+                    and os.fsencode(str(self.out)) in words):
+                found.append(int(entry.name))
+        return sorted(found)
+
+    def results(self):
+        return json.loads((self.out / "results.json").read_text())
