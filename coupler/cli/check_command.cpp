@@ -48,16 +48,10 @@ int check_command(const CaseOptions& options) {
   for (const std::string& assignment : options.overrides)
     arguments.insert(arguments.end(), {"--set", assignment});
   const LaunchCommand command = launch_command(parameters, arguments);
-  prepare_case(parameters, folder, false, [](const std::string& what) {
-    fmt::print("{}\n", what);
-    std::fflush(stdout);
-  });
+  prepare_case(parameters, folder, false, [](const std::string& what) { fmt::print("{}\n", what); });
 
   Watch watch;
-  watch.on_line = [](const std::string& line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-  };
+  watch.on_line = [](const std::string& line) { fmt::print("{}\n", line); };
   watch.on_tick = [] {};
   const int code = launch(command, watch);
   fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");

@@ -138,6 +138,7 @@ class CommandLine {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with stderr, also in a file
   try {
     return CommandLine().run(argc, argv);
   } catch (const InputError& error) {

@@ -3,8 +3,8 @@
 """Makes report.html of one run, or of several runs side by side; also of runs that stopped early.
 
 report.py RUN [RUN ...]: each RUN is the output folder of a run. The report is one self-contained file in the
-first folder; with several runs results.csv beside it has one row per run. Prints a short table and where
-the report is. --strip FILE: the first run's pictures side by side in one file, instead of a report.
+first folder; with several runs results.csv beside it has one row per run, and a table of each is printed.
+Says where the report is. --strip FILE: the first run's pictures side by side in one file, instead of a report.
 Exit status: 0 done, 2 a folder is not that of a run, 3 the report could not be written.
 
 Needs matplotlib; VTK's Python modules for the pictures of the surface (left out, and said so, without them).
@@ -48,7 +48,8 @@ def main():
     except (OSError, RuntimeError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 3
-    print(tables.text(runs))
+    if len(runs) > 1:  # of one run, `demvof run` has printed it
+        print(tables.text(runs))
     print(f"report: {report.resolve()}")
     return 0
 

@@ -15,7 +15,8 @@ from reporting.run import read_reference  # noqa: E402
 
 pyplot.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
                         "grid.color": "#e2e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
-                        "legend.frameon": False, "legend.fontsize": 9, "lines.linewidth": 1.6})
+                        "legend.frameon": False, "legend.fontsize": 9, "lines.linewidth": 1.6,
+                        "figure.max_open_warning": 0})
 COLOURS = ["#1f6fb2", "#d9641e", "#3a9a5b", "#8a55b4", "#5b6670", "#c23b58"]
 WATER = LinearSegmentedColormap.from_list("water", ["#f7fafc", "#a9cdea"])
 SPEED = pyplot.get_cmap("inferno")
