@@ -32,6 +32,10 @@ class Checks:
         good = value is not None and value <= bound
         self._line(good, what, f"{'missing' if value is None else f'{value:.4g}'} {unit} (at most {bound:.4g})")
 
+    def at_least(self, what, value, bound):
+        good = value is not None and value >= bound
+        self._line(good, what, f"{'missing' if value is None else value} (at least {bound})")
+
     def equal(self, what, value, expected):
         self._line(value == expected, what, f"{value} (expected {expected})")
 

@@ -43,9 +43,7 @@ def main():
     spacing = (upper[2] - lower[2]) / cells[2] / DIAMETER if cells else 0
     late = speeds[run.times >= 0.6 * run.times[-1]] if len(speeds) else speeds
     speed = float(late.mean()) if len(late) else None
-    # The bead feels the wake that it leaves in its own bulk cells: the smaller they are, the more.
-    tolerance = 0.01 if spacing >= 7.99 else math.inf
-    checks.near(f"terminal velocity, bulk spacing {spacing:.1f} d", speed, terminal_velocity(), tolerance, "m/s")
+    checks.near(f"terminal velocity, bulk spacing {spacing:.1f} d", speed, terminal_velocity(), 0.01, "m/s")
     if len(late):
         checks.note("", f"{late.min():.4f} to {late.max():.4f} m/s from t = {0.6 * run.times[-1]:.2f} s on")
     return checks.exit_code()

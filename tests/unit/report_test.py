@@ -174,10 +174,10 @@ class Reports(unittest.TestCase):
         folder = write_run(self.place / "a")
         (folder / "results.json").unlink()
         (folder / "progress.json").write_text('{"time": 0.25, "end_time": 0.5}')
-        code, printed, page = report(folder)
+        code, _, page = report(folder)
         self.assertEqual(code, 0)
         self.assertIn("unfinished", page)
-        self.assertIn("0.25 s of 0.5 s", printed)
+        self.assertIn("0.25 s of 0.5 s", page)
 
     def test_each_part_may_be_missing_or_cut_off(self):
         def cut(path, size=60):
@@ -214,6 +214,7 @@ class Reports(unittest.TestCase):
         two = write_run(self.place / "two", configuration=configuration, quantities={"liquid_front": 0.75})
         code, printed, page = report(one, two)
         self.assertEqual(code, 0, printed)
+        self.assertIn("2 at the start, 2 at the end, 0 lost", printed)
         self.assertIn("coupling.window", page)
         self.assertNotIn("coupling.end_time</td>", page)  # the same in both
         with open(one / "results.csv", encoding="utf-8") as file:
