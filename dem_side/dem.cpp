@@ -52,7 +52,8 @@ void for_each_fix(const LAMMPS_NS::LAMMPS& liggghts, Function&& function) {
 
 }  // namespace
 
-Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log) : world_(world), log_(log) {
+Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log)
+    : world_(world), script_(script), log_(log) {
   if (!fs::is_regular_file(script))
     throw InputError(fmt::format("particles.script: there is no file {}", script.string()));
   fs::current_path(script.parent_path());
@@ -61,7 +62,7 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log) : world_(w
   std::vector<std::string> words = {"dem_side", "-screen", log.string(), "-log", "none", "-nocite"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
-  guarded([&] {
+  by_the_script([&] {
     liggghts_ =
         std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), world);
     liggghts_->input->file(script.c_str());
@@ -92,17 +93,23 @@ void Dem::guarded(Work&& work) {
   }
 }
 
-void Dem::command(const std::string& line) {
-  guarded([&] { liggghts_->input->one(line.c_str()); });
+// What LIGGGHTS refuses before the first step is a mistake in the script.
+template <class Work>
+void Dem::by_the_script(Work&& work) {
+  try {
+    guarded(work);
+  } catch (const SolverStopped& stop) {
+    throw InputError(script_.string() + ": " + stop.what());
+  }
 }
 
 void Dem::set_up() {
-  command("run 0 post no");
+  by_the_script([&] { liggghts_->input->one("run 0 post no"); });
 }
 
 // "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
 void Dem::run(int steps) {
-  command(fmt::format("run {} pre no post no", steps));
+  guarded([&] { liggghts_->input->one(fmt::format("run {} pre no post no", steps).c_str()); });
 }
 
 ParticleArrays Dem::particles() const {

@@ -42,22 +42,22 @@ struct ParticleCensus {
 /// coupled run starts from the state in which the script ends. Relative paths in the script count
 /// from the folder it lies in: the constructor makes that the working folder.
 ///
-/// Everything LIGGGHTS prints goes to the log file. When LIGGGHTS itself gives up, SolverStopped
-/// carries the error line of that file.
+/// Everything LIGGGHTS prints goes to the log file. When LIGGGHTS itself gives up, the message carries
+/// the error line of that file.
 class Dem {
  public:
   /// Collective over world. script, log: absolute paths.
-  /// Throws InputError when the script is missing or leaves out something of the above,
-  /// SolverStopped when LIGGGHTS refuses it.
+  /// Throws InputError when the script is missing, leaves out something of the above, or LIGGGHTS
+  /// refuses it.
   Dem(MPI_Comm world, const std::filesystem::path& script, const std::filesystem::path& log);
   ~Dem();
   Dem(const Dem&) = delete;
   Dem& operator=(const Dem&) = delete;
 
   /// Computes the forces of the state reached by the script. Once, before the first run; whatever
-  /// adds forces is attached before.
+  /// adds forces is attached before. Throws InputError when LIGGGHTS finds the script incomplete.
   void set_up();
-  /// Advances by a number of time steps.
+  /// Advances by a number of time steps. Throws SolverStopped when LIGGGHTS gives up.
   void run(int steps);
 
   ParticleArrays particles() const;
@@ -91,12 +91,13 @@ class Dem {
  private:
   template <class Work>
   void guarded(Work&& work);
-  void command(const std::string& line);
+  template <class Work>
+  void by_the_script(Work&& work);
   void add_fix(std::vector<std::string> words);
   static void call_back(void* self, long step, int count, int* id, double** position, double** external);
 
   MPI_Comm world_;
-  std::filesystem::path log_;
+  std::filesystem::path script_, log_;
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
   int integrated_ = 0, frozen_ = 0, weighed_ = 0;  // group bits

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A stand-in for foam_side: water that never answers, the same everywhere and at every time. It plays
 // the fluid's part of the window protocol, hands impulses over as left-over, and checks in every window
-// what the real dem_side sends and reports. Usage: mock_fluid case.yaml [--out DIR] [options below]
+// what the real dem_side sends and reports. Usage: mock_fluid case.yaml [options below]
 //
 // Exit code 0 when everything held; each broken expectation is one line on stderr and ends in 3.
 
@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -25,13 +25,14 @@ using namespace demvof;
 using nlohmann::json;
 
 struct Options {
-  std::string case_file, out;
+  std::string case_file;
   bool check = false;
   double gravity = 9.81;         // m/s2, downward, as stated in the handshake
   double left_over = 0;          // impulse per active cell and window, N s, downward
   double terminal_velocity = 0;  // expected of a single particle at the end, m/s
   double terminal_tolerance = 1e-3;
-  std::string bulk_file;  // the last deposit, as text, one file per rank
+  std::string bulk_file;      // the last deposit, as text, one file per rank
+  long killed_in_window = 0;  // by kill -9
   bool print = false;
 };
 
@@ -117,6 +118,7 @@ int play(const Options& options, OwnWorld& world) {
       }
     MPI_Allreduce(MPI_IN_PLACE, &left_over, 3, MPI_DOUBLE, MPI_SUM, world.comm());
     link.send(fluid);
+    if (n == options.killed_in_window) std::raise(SIGKILL);
     particles = link.receive<BulkParticles>();
     report = json::parse(link.swap_text("{}"));
     go_on = link.agree_to_continue(Continue::run);
@@ -153,12 +155,12 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("A fluid at rest in place of foam_side.", "mock_fluid");
   app.add_option("case", options.case_file)->required();
-  app.add_option("--out", options.out);
   app.add_flag("--check", options.check);
   app.add_option("--gravity", options.gravity);
   app.add_option("--left-over", options.left_over);
   app.add_option("--terminal-velocity", options.terminal_velocity);
   app.add_option("--bulk-file", options.bulk_file);
+  app.add_option("--killed-in-window", options.killed_in_window);
   app.add_flag("--print", options.print);
   CLI11_PARSE(app, argc, argv);
   OwnWorld world(argc, argv, Side::fluid);
