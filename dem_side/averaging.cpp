@@ -17,6 +17,14 @@ struct CellSample {
   Vec3 left_over_rate;  // M / sum of w beta, m
 };
 
+bool beyond_a_wall(const BulkGrid& grid, const Vec3& position) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!grid.periodic()[axis] &&
+        !(position[axis] >= grid.lower()[axis] && position[axis] <= grid.upper()[axis]))
+      return true;
+  return false;
+}
+
 template <class T>
 const double* rows(const std::vector<T>& values) {
   return reinterpret_cast<const double*>(values.data());
@@ -35,7 +43,11 @@ Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& 
 const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& particles,
                                                     const std::vector<BulkParticles>& contributions) {
   std::vector<Vec3> positions(particles.count);
-  for (int i = 0; i < particles.count; ++i) positions[i] = vec3(particles.position[i]);
+  outside_ = 0;
+  for (int i = 0; i < particles.count; ++i) {
+    positions[i] = vec3(particles.position[i]);
+    outside_ += beyond_a_wall(grid_, positions[i]);
+  }
   weights_ = kernel_weights(grid_, parameters_, positions);
   touched_.emplace(world_, partition_, weights_.cells);
 

@@ -35,6 +35,8 @@ class Averaging {
   std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned);
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
+  /// Local particles of the last deposit that lay outside the bulk grid: they count in its nearest cells.
+  long outside() const { return outside_; }
   /// What had to be moved out of full cells in the last deposit.
   const SolidRelief& relief() const { return relief_; }
   /// Largest solid fraction of a bulk cell in the last deposit, -. Collective.
@@ -51,6 +53,7 @@ class Averaging {
   KernelWeights weights_;
   std::optional<TouchedCells> touched_;
   CellValues<BulkParticles> deposited_;
+  long outside_ = 0;
   SolidRelief relief_;
   Vec3 unplaced_left_over_;
 };

@@ -83,7 +83,6 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
     carried.left_over_force = beta / window * here.left_over_rate;
     carried_by(rows, i) = carried;
   }
-  if (window_ > 0) steps_before_ += steps_;  // the call of set_up() is no step
   window_ = window;
   steps_ = 0;
   force_sums_ = {};

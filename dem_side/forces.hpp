@@ -72,8 +72,8 @@ class FluidForces {
   WindowImpulses impulses() const;
   /// Local particles that feel no fluid: new ones, and those where there is none.
   long waiting_for_fluid() const;
-  /// DEM steps of all windows so far.
-  long steps() const { return steps_before_ + steps_; }
+  /// DEM steps done in this window.
+  int steps() const { return steps_; }
 
  private:
   template <class Drag>
@@ -83,7 +83,6 @@ class FluidForces {
   Dem& dem_;
   bool pressure_gradient_;
   double window_ = 0;          // s; 0 before the first one
-  long steps_before_ = 0;      // of earlier windows
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window
 };

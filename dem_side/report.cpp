@@ -14,7 +14,7 @@ namespace {
 
 // Sums over particles and cells; plain doubles, so that one reduction does for all of them.
 struct Sums {
-  double count = 0, waiting_for_fluid = 0;
+  double count = 0, waiting_for_fluid = 0, outside_bulk_grid = 0;
   double mass = 0, solid_volume = 0, solid_volume_bulk = 0;
   double kinetic_energy = 0, potential_energy = 0;
   WindowImpulses impulses;
@@ -86,6 +86,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
   }
   sums.impulses = forces.impulses();
   sums.waiting_for_fluid = static_cast<double>(forces.waiting_for_fluid());
+  sums.outside_bulk_grid = static_cast<double>(averaging.outside());
   sums.unplaced_left_over = averaging.unplaced_left_over();
   sums.peak_memory_bytes = static_cast<double>(peak_memory_bytes());
   reduce(&sums.count, sizeof(Sums), MPI_SUM, dem_.world());
@@ -98,6 +99,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
       {"left", left_},
       {"lost", lost_},
       {"waiting_for_fluid", std::lround(sums.waiting_for_fluid)},
+      {"outside_bulk_grid", std::lround(sums.outside_bulk_grid)},
       {"mass", sums.mass},
       {"solid_volume", sums.solid_volume},
       {"solid_volume_bulk", sums.solid_volume_bulk},
