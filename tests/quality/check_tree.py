@@ -59,7 +59,7 @@ def solver_free_coupler(folder):
     for path in files(folder):
         if path.relative_to(folder).parts[0] == "coupler" and path.suffix in {".cpp", ".hpp"}:
             yield from ((path, n, text) for n, text in lines(path)
-                        if SOLVER_INCLUDE.search(text) or OPENFOAM_OR_LIGGGHTS.search(text))
+                        if SOLVER_INCLUDE.search(text) or OPENFOAM_OR_LIGGGHTS.search(text.split("//")[0]))
 
 
 def short_files(folder):
