@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pressure from continuity, then flux and velocity.
+// Pressure from continuity, then flux and velocity. Without particles, with h = H/A:
 //
-//   phi = eps_f (H/A)_f.S + memory + M (face_force - grad p_rgh.S),   M = eps_f (eps/A)_f
-//   div(M grad p_rgh) = div(phi without grad p_rgh) + d(eps)/dt
-//   u = H/A + (eps/A) [face_force - grad p_rgh.S reconstructed in the cell]
+//   phi = mean(h).S + memory + a_f (face_force - grad p_rgh.S)
+//   div(a_f grad p_rgh) = div(phi without grad p_rgh)
+//   u = h + a [(face_force - grad p_rgh.S) reconstructed in the cell]
 //
-// Gravity, surface tension and pressure meet at the face before eps or A enter: where they balance,
-// flux and velocity are zero for any void fraction and any drag.
+// With particles the face balance of crowding.hpp, and div(phi) = -d(eps)/dt.
+// Gravity, surface tension and pressure meet at the face: where they balance, flux and velocity are
+// zero for any void fraction and any drag.
 
 #include "foam_side/flow.hpp"
 
@@ -27,8 +28,45 @@ void update_face_velocity(Flow& flow) {
   surfaceVectorField& face_velocity = *flow.face_velocity;
   face_velocity = fvc::interpolate(flow.U);
   tmp<surfaceScalarField> speed = flow.phi / flow.mesh.magSf();
-  if (flow.porosity) speed.ref() /= *flow.pressure_system.eps_f;
+  if (flow.porosity) speed.ref() /= flow.pressure_system.crowding->eps_f;
   face_velocity += normal * (speed - (normal & face_velocity));
+}
+
+/// Flux without the forces that the pressure balances, m3/s.
+tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
+  if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
+  const Crowding& c = *flow.pressure_system.crowding;
+  return tmp<surfaceScalarField>::New(
+      "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
+}
+
+/// force: (face_force - grad p_rgh.S), N/m.
+void update_velocity(Flow& flow, const volVectorField& h, const surfaceScalarField& force) {
+  const scalarField& rAU = flow.pressure_system.inverse_diagonal->primitiveField();
+  const Foam::vectorField push = (*flow.reconstruct)([&](const auto& at, label) { return at(force); });
+  Foam::vectorField& U = flow.U.primitiveFieldRef();
+  forAll(U, cell) U[cell] = h[cell] + rAU[cell] * push[cell];
+}
+
+/// transported: H_f/e of crowding.hpp.
+void update_velocity_between_particles(Flow& flow, const volVectorField& h,
+                                       const surfaceScalarField& transported) {
+  const PressureSystem& system = flow.pressure_system;
+  const Crowding& c = *system.crowding;
+  const scalarField& rAU = system.inverse_diagonal->primitiveField();
+  const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
+  const Foam::vectorField push = (*flow.reconstruct)([&](const auto& at, label cell) {
+    const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell];
+    const scalar pressure =
+        ((1 + k) * at(flow.phi) - at(c.eps_f) * at(transported) - k * at(c.reference)) / e - at(c.push);
+    return at(c.push) + e * rAU[cell] / at(*system.response) * pressure;
+  });
+  const Foam::vectorField& reference = flow.source->reference.field();
+  Foam::vectorField& U = flow.U.primitiveFieldRef();
+  forAll(U, cell) {
+    const scalar k = c.stiffness[cell];
+    U[cell] = (h[cell] + k * reference[cell] + push[cell]) / (1 + k);
+  }
 }
 
 }  // namespace
@@ -41,23 +79,22 @@ bool pressure_corrector(Flow& flow) {
 
 void correct_pressure(Flow& flow) {
   const PressureSystem& system = flow.pressure_system;
-  const volScalarField& rAU = *system.inverse_diagonal;
-  const surfaceScalarField& mobility_f = *system.mobility_f;
+  const surfaceScalarField& mobility = *system.mobility;
 
-  volVectorField HbyA(Foam::constrainHbyA(rAU * system.momentum->H(), flow.U, flow.p_rgh));
-  surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA));
-  if (flow.porosity) phiHbyA *= *system.eps_f;
-  phiHbyA += *system.memory;
+  const volVectorField h(
+      Foam::constrainHbyA(*system.inverse_diagonal * system.momentum->H(), flow.U, flow.p_rgh));
+  const surfaceScalarField transported(fvc::flux(h) + *system.memory);
+  surfaceScalarField phiHbyA(unforced_flux(flow, transported));
   if (flow.p_rgh.needReference()) Foam::adjustPhi(phiHbyA, flow.U, flow.p_rgh);
-  phiHbyA += flow.face_force() * mobility_f;
+  phiHbyA += mobility * flow.face_force();
 
   if (flow.porosity)
-    Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, phiHbyA, mobility_f);
+    Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, phiHbyA, mobility);
   else
-    Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility_f);
+    Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility);
 
   while (flow.pimple.correctNonOrthogonal()) {
-    Foam::fvScalarMatrix equation(fvm::laplacian(mobility_f, flow.p_rgh) == fvc::div(phiHbyA));
+    Foam::fvScalarMatrix equation(fvm::laplacian(mobility, flow.p_rgh) == fvc::div(phiHbyA));
     if (flow.porosity) equation.source() += flow.mesh.V().field() * rate_to_serve(flow);
     equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
     equation.solve(flow.mesh.solver(flow.p_rgh.select(flow.pimple.finalInnerIter())));
@@ -66,8 +103,10 @@ void correct_pressure(Flow& flow) {
     const tmp<surfaceScalarField> pressure_flux = equation.flux();
     flow.phi = phiHbyA - pressure_flux();
     flow.p_rgh.relax();
-    tmp<volScalarField> mobility = flow.porosity ? flow.porosity->eps * rAU : tmp<volScalarField>(rAU);
-    flow.U = HbyA + mobility * fvc::reconstruct(flow.face_force() - pressure_flux / mobility_f);
+    if (flow.source)
+      update_velocity_between_particles(flow, h, transported);
+    else
+      update_velocity(flow, h, flow.face_force() - pressure_flux / mobility);
     flow.U.correctBoundaryConditions();
   }
   update_face_velocity(flow);

@@ -17,7 +17,9 @@
 #include <memory>
 
 #include "coupler/scene/scene.hpp"
+#include "foam_side/crowding.hpp"
 #include "foam_side/openfoam.hpp"
+#include "foam_side/reconstruct.hpp"
 
 namespace demvof {
 
@@ -57,11 +59,12 @@ struct Clock {
 
 /// What one momentum prediction leaves for its pressure corrections.
 struct PressureSystem {
-  std::unique_ptr<Foam::fvVectorMatrix> momentum;
+  std::unique_ptr<Foam::fvVectorMatrix> momentum;    // inertia and stress; no particle force
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
-  std::unique_ptr<surfaceScalarField> eps_f;         // void fraction at faces; only with porosity
-  std::unique_ptr<surfaceScalarField> mobility_f;    // (eps/A)_f eps_f, m3 s/kg
+  std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
+  std::unique_ptr<Crowding> crowding;                // only with particles
+  std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
 };
 
 /// The fluid. Built by open_flow; members stand in the order in which they depend on each other.
@@ -77,7 +80,7 @@ struct Flow {
 
   volScalarField p_rgh;                    // p - rho g.x, Pa
   volVectorField U;                        // between the particles, m/s
-  std::unique_ptr<Porosity> porosity;      // only with scene.porosity
+  std::unique_ptr<Porosity> porosity;      // only with scene.particles and scene.porosity
   std::unique_ptr<ParticleSource> source;  // only with scene.particles
   surfaceScalarField phi;                  // eps_f u.S, m3/s: the one flux of continuity and alpha
   Foam::immiscibleIncompressibleTwoPhaseMixture mixture;
@@ -95,6 +98,7 @@ struct Flow {
   std::unique_ptr<surfaceVectorField> face_velocity;  // only on a changing mesh, m/s
   tmp<surfaceScalarField> face_force;                 // (sigma kappa grad alpha - g.x grad rho).S, N/m
   PressureSystem pressure_system;
+  std::unique_ptr<Reconstruction> reconstruct;
 
   double alpha_excess = 0;  // worst distance of alpha from [0, 1] over the run, -
 };
@@ -136,6 +140,9 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 /// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
 /// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
+
+/// Void fraction at faces that keeps a uniform flux uniform where eps jumps: 1/e = mean(1/eps).
+tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps);
 
 /// Mobility for fit_flux from density, void fraction and drag, m3 s/kg.
 tmp<surfaceScalarField> projection_mobility(const Flow& flow);

@@ -75,10 +75,10 @@ Flow::Flow(const Foam::argList& args, const Scene& plan)
       pimple(mesh),
       p_rgh(file(time, mesh, "p_rgh", Foam::IOobject::MUST_READ), mesh),
       U(file(time, mesh, "U", Foam::IOobject::MUST_READ), mesh),
-      porosity(scene.porosity ? std::make_unique<Porosity>(mesh) : nullptr),
+      porosity(scene.particles && scene.porosity ? std::make_unique<Porosity>(mesh) : nullptr),
       source(scene.particles ? std::make_unique<ParticleSource>(mesh) : nullptr),
       phi(file(time, mesh, "phi", Foam::IOobject::READ_IF_PRESENT),
-          porosity ? fvc::interpolate(porosity->eps) * fvc::flux(U) : fvc::flux(U)),
+          porosity ? face_void_fraction(porosity->eps) * fvc::flux(U) : fvc::flux(U)),
       mixture(U, phi),
       alpha(mixture.alpha1()),
       rho(Foam::IOobject("rho", time.timeName(), mesh),
@@ -95,6 +95,7 @@ Flow::Flow(const Foam::argList& args, const Scene& plan)
   mesh.setFluxRequired(p_rgh.name());
   mesh.setFluxRequired(alpha.name());
   Foam::setRefCell(p, p_rgh, pimple.dict(), p_reference_cell, p_reference);
+  reconstruct = std::make_unique<Reconstruction>(mesh);
   clock.limit = time.deltaTValue();
 }
 

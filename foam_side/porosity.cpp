@@ -45,7 +45,7 @@ void set_initial_porosity(Flow& flow, const scalarField& eps) {
   porosity.rate.field() = 0;
   porosity.eps.primitiveFieldRef() = eps;
   porosity.eps.correctBoundaryConditions();
-  flow.phi = fvc::interpolate(porosity.eps) * fvc::flux(flow.U);
+  flow.phi = face_void_fraction(porosity.eps) * fvc::flux(flow.U);
   fit_flux(flow, projection_mobility(flow), nullptr);
 }
 
@@ -73,18 +73,13 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow) {
 }
 
 tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
-  // A fluid cell answers to a pressure gradient like eps dt / (eps rho + dt C).
-  volScalarField mobility("mobility", 1 / flow.rho);
-  if (flow.source) {
-    const scalar dt = flow.time.deltaTValue();
-    forAll(mobility, cell) {
-      const scalar eps = flow.porosity ? flow.porosity->eps[cell] : 1;
-      mobility[cell] = eps / (eps * flow.rho[cell] + dt * flow.source->coefficient[cell]);
-    }
-  }
-  tmp<surfaceScalarField> at_faces = flow.time.deltaT() * fvc::interpolate(mobility);
-  if (flow.porosity) at_faces.ref() *= fvc::interpolate(flow.porosity->eps);
-  return at_faces;
+  const volScalarField specific_volume("specificVolume", 1.0 / flow.rho);
+  tmp<surfaceScalarField> free = flow.time.deltaT() * fvc::interpolate(specific_volume);
+  if (!flow.source) return free;
+  volScalarField inertia("A", flow.rho / flow.time.deltaT());
+  if (flow.porosity) inertia *= flow.porosity->eps;
+  const Crowding crowding(flow, inertia);
+  return free / (1.0 / crowding.eps_f + crowding.resistance);
 }
 
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Momentum matrix, and the predictor when PIMPLE asks for one.
 //
-//   d(eps rho u)/dt + div(eps rho u u) - div(eps mu (grad u + grad u^T)) - force - C (u_ref - u)
-//       = eps (sigma kappa grad alpha - g.x grad rho - grad p_rgh)
+//   d(eps rho u)/dt + div(eps rho u u) - div(eps mu (grad u + grad u^T))
+//       = eps (sigma kappa grad alpha - g.x grad rho - grad p_rgh) + force + C (u_ref - u)
 //
+// The matrix kept for the pressure corrections holds the left side alone: the force of the particles
+// meets the pressure at the faces (crowding.hpp).
 // eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
 #include "foam_side/flow.hpp"
@@ -27,39 +29,37 @@ tmp<Foam::fvVectorMatrix> inertia_and_stress(Flow& flow) {
          flow.turbulence->divDevRhoReff(flow.rho, flow.U);
 }
 
-void add_particle_force(const ParticleSource& source, Foam::fvVectorMatrix& momentum) {
-  const scalarField& volume = momentum.psi().mesh().V().field();
-  momentum.diag() += volume * source.coefficient.field();
-  momentum.source() +=
-      volume * (source.force.field() + source.coefficient.field() * source.reference.field());
-}
-
-/// eps (face_force - grad p_rgh.S) as a force on the cells, N/m3.
-tmp<volVectorField> driving_force(const Flow& flow) {
+/// The predictor: all forces, those of the particles implicit in U.
+void solve_momentum(Flow& flow, const Foam::fvVectorMatrix& momentum) {
   tmp<volVectorField> force =
       fvc::reconstruct(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
   if (flow.porosity) force.ref() *= flow.porosity->eps;
-  return force;
+  Foam::fvVectorMatrix equation(momentum == force);
+  if (flow.source) {
+    const ParticleSource& source = *flow.source;
+    const scalarField& volume = flow.mesh.V().field();
+    equation.diag() += volume * source.coefficient.field();
+    equation.source() +=
+        volume * (source.force.field() + source.coefficient.field() * source.reference.field());
+  }
+  equation.solve();
 }
 
-/// Part of the face flux of the last step that its cell velocities do not know of, m3/s, as it acts on
-/// the flux of this step: (eps) (eps rho/A)_f c (u_f - interpolated u).S/dt of the old time.
-tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& mobility,
-                                    const surfaceScalarField* eps_f) {
+/// Part of the face velocity of the last step that its cell velocities do not know of, m3/s:
+/// (eps rho/A)_f c (u_f - mean(u)).S/dt of the old time, with the weight c of OpenFOAM's ddt scheme.
+tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& response) {
   const volVectorField& U0 = flow.U.oldTime();
   tmp<surfaceScalarField> flux0;  // of the velocity between the particles
   if (flow.face_velocity)
     flux0 = flow.mesh.Sf() & flow.face_velocity->oldTime();
   else if (flow.porosity)
-    flux0 = flow.phi.oldTime() / fvc::interpolate(flow.porosity->eps.oldTime());
+    flux0 = flow.phi.oldTime() / face_void_fraction(flow.porosity->eps.oldTime());
   else
     flux0 = flow.phi.oldTime();
   const surfaceScalarField unknown(flux0() - fvc::dotInterpolate(flow.mesh.Sf(), U0));
   const auto scheme = Foam::fv::ddtScheme<vector>::New(flow.mesh, flow.mesh.ddtScheme("ddt(U)"));
-  tmp<surfaceScalarField> memory = fvc::interpolate(flow.rho * mobility) / flow.time.deltaT() *
-                                   scheme.ref().fvcDdtPhiCoeff(U0, flux0(), unknown) * unknown;
-  if (eps_f) memory.ref() *= *eps_f;
-  return memory;
+  return fvc::interpolate(flow.rho * response) / flow.time.deltaT() *
+         scheme.ref().fvcDdtPhiCoeff(U0, flux0(), unknown) * unknown;
 }
 
 }  // namespace
@@ -67,22 +67,22 @@ tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& mobi
 void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
   system.momentum.reset(inertia_and_stress(flow).ptr());
-  if (flow.source) add_particle_force(*flow.source, *system.momentum);
   system.momentum->relax();
-  if (flow.pimple.momentumPredictor()) Foam::solve(*system.momentum == driving_force(flow));
+  if (flow.pimple.momentumPredictor()) solve_momentum(flow, *system.momentum);
 
-  system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / system.momentum->A());
-  const volScalarField& rAU = *system.inverse_diagonal;
-  if (flow.porosity) {
-    const volScalarField mobility("mobility", flow.porosity->eps * rAU);
-    system.eps_f = std::make_unique<surfaceScalarField>("eps_f", fvc::interpolate(flow.porosity->eps));
-    system.mobility_f =
-        std::make_unique<surfaceScalarField>("rAUf", *system.eps_f * fvc::interpolate(mobility));
-    system.memory =
-        std::make_unique<surfaceScalarField>("memory", flux_memory(flow, mobility, system.eps_f.get()));
+  const volScalarField A(system.momentum->A());
+  system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / A);
+  tmp<volScalarField> response(*system.inverse_diagonal);
+  if (flow.porosity) response = flow.porosity->eps * *system.inverse_diagonal;
+  system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
+  system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));
+  if (flow.source) {
+    system.crowding = std::make_unique<Crowding>(flow, A);
+    const Crowding& crowding = *system.crowding;
+    system.mobility = std::make_unique<surfaceScalarField>(
+        "rAUf", *system.response / (1.0 / crowding.eps_f + crowding.resistance));
   } else {
-    system.mobility_f = std::make_unique<surfaceScalarField>("rAUf", fvc::interpolate(rAU));
-    system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, rAU, nullptr));
+    system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
   }
 }
 

@@ -17,7 +17,7 @@ void rebuild_flux(Flow& flow) {
     if (wall_velocity.fixesValue())
       at_boundary[patch] = wall_velocity & flow.mesh.Sf().boundaryField()[patch];
   }
-  if (flow.porosity) flow.phi *= fvc::interpolate(flow.porosity->eps);
+  if (flow.porosity) flow.phi *= face_void_fraction(flow.porosity->eps);
   const tmp<scalarField> wanted = flow.porosity ? wanted_porosity_rate(flow) : tmp<scalarField>();
   fit_flux(flow, projection_mobility(flow), flow.porosity ? &wanted() : nullptr);
 }
@@ -51,6 +51,7 @@ bool refine_mesh(Flow& flow) {
 
   flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
   flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
+  flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
   if (liquid) restore_liquid(flow, *liquid);
   rebuild_flux(flow);
   flow.mixture.correct();

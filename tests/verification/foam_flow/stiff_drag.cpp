@@ -57,8 +57,8 @@ TEST_P(StiffDrag, OneStepGivesTheImplicitSolution) {
   std::cout << "k = " << k << ": velocity error " << worst / speed << ", momentum balance "
             << imbalance / (eps * rho * speed) << "\n";
   EXPECT_LT(worst, 0.01 * speed);  // second-order divergence of the swirl on 40 x 40 cells
-  // Velocity changes by 1e-16 of itself are impulses of k times that.
-  EXPECT_LT(imbalance, (1e-4 + 1e-14 * k) * eps * rho * speed);
+  // Wall cells differ from the others by their stress, 1e-6 of their inertia; times k that is drag.
+  EXPECT_LT(imbalance, (1e-4 + 1e-8 * k) * eps * rho * speed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Stiffness, StiffDrag, testing::Values(1e-2, 1, 1e2, 1e4, 1e6, 1e8));

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/crowding.hpp"
+
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+namespace {
+
+/// A field of cells alone, continued to the boundary.
+template <class Type>
+Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> with_boundary(
+    const Foam::DimensionedField<Type, Foam::volMesh>& cells) {
+  Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> field(
+      Foam::IOobject(cells.name() + "OnFaces", cells.time().timeName(), cells.mesh(), Foam::IOobject::NO_READ,
+                     Foam::IOobject::NO_WRITE, false),
+      cells.mesh(), Foam::dimensioned<Type>(cells.dimensions(), Foam::Zero),
+      Foam::zeroGradientFvPatchField<Type>::typeName);
+  field.primitiveFieldRef() = cells.field();
+  field.correctBoundaryConditions();
+  return field;
+}
+
+}  // namespace
+
+tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps) {
+  return 1.0 / fvc::interpolate(1.0 / eps);
+}
+
+Crowding::Crowding(const Flow& flow, const volScalarField& A)
+    : eps_f("eps_f", flow.porosity ? face_void_fraction(flow.porosity->eps)
+                                   : surfaceScalarField::New("eps_f", flow.mesh,
+                                                             dimensionedScalar("one", Foam::dimless, 1))),
+      resistance("resistance", 0 * eps_f),
+      reference("reference", 0 * flow.phi),
+      push("push", 0 * flow.phi),
+      stiffness(flow.source->coefficient.field() / A.primitiveField()) {
+  volScalarField inertia("inertia", A);
+  volScalarField drag(with_boundary(flow.source->coefficient));
+  volVectorField force(with_boundary(flow.source->force));
+  volVectorField towards(drag * with_boundary(flow.source->reference));  // C u_ref
+  if (flow.porosity) {
+    const volScalarField& eps = flow.porosity->eps;
+    inertia /= eps;
+    drag /= Foam::sqr(eps);
+    force /= eps;
+    towards /= eps;
+  }
+  const surfaceScalarField inertia_f(fvc::interpolate(inertia));
+  const surfaceScalarField drag_f(fvc::interpolate(drag));
+  const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
+  resistance = drag_f / inertia_f;
+  reference = fvc::dotInterpolate(flow.mesh.Sf(), towards) / (drag_f + tiny);
+  push = fvc::dotInterpolate(flow.mesh.Sf(), force) / inertia_f;
+}
+
+}  // namespace demvof
