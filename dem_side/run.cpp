@@ -80,9 +80,10 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   survivor.start(report.count());
   Output output(dem, grid, options.out, parameters.output.interval);
   output.write(0, coupling.window, false, forces, averaging, {});
-  link.send(averaging.deposited());
-
   WallSeconds seconds;
+  link.send(averaging.deposited());
+  link.swap_text(report.window(forces, averaging, seconds));
+
   const long windows = std::lround(coupling.end_time / coupling.window);
   bool go_on = true;
   for (long n = 1; n <= windows && go_on; ++n) {

@@ -59,7 +59,7 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
 }
 
 RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, const OwnWorld& world,
-                   const Vec3& particle_momentum, RunRecord& record) {
+                   RunRecord& record) {
   const double window = parameters.coupling.window, end_time = parameters.coupling.end_time;
   const long windows = std::lround(end_time / window);
   FieldOutput fields(parameters.output.interval);
@@ -70,7 +70,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, con
   bridge.take(link.receive<BulkParticles>());
   if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
   flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
-  record.start(flow, particle_momentum);
+  record.start(flow, json::parse(link.swap_text("{}")));
   fields.write(flow, true);
 
   bool go_on = true;
@@ -115,7 +115,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, con
 /// Plain VOF: steps and output times as in controlDict, like interFoam.
 RunStatus run_alone(Flow& flow, RunRecord& record) {
   FluidSeconds seconds;
-  record.start(flow, Vec3{});
+  record.start(flow, json());
   bool go_on = true;
   for (long n = 1; go_on; ++n) {
     {
@@ -157,11 +157,6 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.largest_solid_fraction = particles.at("largest_solid_fraction");
 }
 
-Vec3 particle_momentum(const json& facts) {
-  const json& momentum = facts.at("momentum");
-  return {momentum.at(0), momentum.at(1), momentum.at(2)};
-}
-
 void print_scene(const Scene& scene) {
   for (const Decision& decision : scene.decisions)
     fmt::print("  {:<24} {:<4} {}\n", decision.decision, decision.on ? "on" : "off", decision.reason);
@@ -200,8 +195,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
 
   RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
   const RunStatus status =
-      link ? run_pair(*flow, parameters, *link, world, particle_momentum(particles), record)
-           : run_alone(*flow, record);
+      link ? run_pair(*flow, parameters, *link, world, record) : run_alone(*flow, record);
   record.finish(*flow, status);
   if (link) link->close();
   return status == RunStatus::completed ? exit_done : exit_failed;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/run_record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -68,7 +70,8 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
   results.scene = scene.decisions;
   if (!particles.is_null()) {
     results.particles.initial = results.particles.final = particles.at("particle_count");
-    dem_step_ = particles.at("time_step");
+    const BulkGridParameters& grid = *parameters.bulk_grid;
+    results.cells.bulk = static_cast<long>(BulkGrid(grid.lower, grid.upper, grid.cells).cell_count());
   }
   if (!writes_) return;
   set_last_words([shared = shared_](const Failure& failure) {
@@ -81,17 +84,19 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
 
 RunRecord::~RunRecord() = default;
 
-void RunRecord::start(const Flow& flow, const Vec3& particle_momentum) {
+void RunRecord::start(const Flow& flow, const json& particles) {
   const Quantities quantities = fluid_quantities(flow);
-  ledger_.emplace(particle_momentum, Vec3{}, quantities.at("liquid_volume"));
+  ledger_.emplace(particles.is_null() ? Vec3{} : vec3(particles.at("momentum")), Vec3{},
+                  quantities.at("liquid_volume"));
   initial_potential_ = quantities.at("potential_energy");
-  next_row_ = flow.time.value();
   if (writes_) {
     std::vector<HistoryColumn> columns;
     for (const std::string& name : recorded_names(parameters_, flow.scene.particles))
       columns.push_back({name, std::string(find_quantity(name)->unit)});
     history_ = std::make_unique<History>(out_ / "history.csv", columns);
   }
+  write_row(flow, particles);
+  next_row_ = flow.time.value() + parameters_.output.history_interval;
 }
 
 /// Enters a window into the ledger. Momentum is that of the particles: drag, left-over, pressure,
@@ -150,8 +155,12 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       results.particles.inserted = p.at("inserted");
       results.particles.left = p.at("left");
       results.particles.lost = p.at("lost");
-      results.steps.particles =
-          std::lround(static_cast<double>(window.number) * parameters_.coupling.window / dem_step_);
+      results.steps.particles += p.at("steps").get<long>();
+      limits_.relieved_cells += p.at("relieved_cells").get<long>();
+      limits_.relieved_volume += p.at("relieved_volume").get<double>();
+      limits_.unplaced_volume = std::max(limits_.unplaced_volume, p.at("unplaced_volume").get<double>());
+      limits_.waiting_particles += p.at("waiting_for_fluid").get<long>();
+      limits_.unplaced_left_over += norm(vec3(p.at("left_over_unplaced")));
       last_particles_ = p;
     }
     close_books(window, liquid);
@@ -205,17 +214,38 @@ void RunRecord::write_row(const Flow& flow, const json& particles) {
   history_->append(flow.time.value(), row);
 }
 
+/// One line for every limit that acted in the run; counts are cells or particles times windows.
+std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
+  constexpr double unbounded = 1e-8;  // of alpha; what MULES promises
+  std::vector<std::string> lines;
+  if (flow.alpha_excess > unbounded)
+    lines.push_back(
+        fmt::format("alpha left [0, 1] by up to {:.2g}: more nAlphaSubCycles or a smaller maxAlphaCo",
+                    flow.alpha_excess));
+  if (limits_.relieved_cells > 0)
+    lines.push_back(
+        fmt::format("bulk cells above coupling.averaging.maximum_solid_fraction passed {:.3g} m3 to their "
+                    "neighbours, {} times",
+                    limits_.relieved_volume, limits_.relieved_cells));
+  if (limits_.unplaced_volume > 0)
+    lines.push_back(
+        fmt::format("no room on the bulk grid for up to {:.3g} m3 above the maximum solid fraction",
+                    limits_.unplaced_volume));
+  if (limits_.waiting_particles > 0)
+    lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
+                                limits_.waiting_particles));
+  if (limits_.unplaced_left_over > 0)
+    lines.push_back(fmt::format("left-over impulse of {:.3g} N s found no particle to receive it",
+                                limits_.unplaced_left_over));
+  return lines;
+}
+
 void RunRecord::finish(const Flow& flow, RunStatus status) {
   if (flow.time.value() > last_row_) write_row(flow, last_particles_);
   if (!writes_) return;
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   shared_->results.status = status;
-  shared_->results.cells.bulk =
-      parameters_.bulk_grid
-          ? static_cast<long>(BulkGrid(parameters_.bulk_grid->lower, parameters_.bulk_grid->upper,
-                                       parameters_.bulk_grid->cells)
-                                  .cell_count())
-          : 0;
+  shared_->results.warnings = warnings(flow);
   shared_->write();
 }
 

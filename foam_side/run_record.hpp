@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/config/program_options.hpp"
@@ -38,8 +39,8 @@ class RunRecord {
             const nlohmann::json& particles, int rank, int ranks);
   ~RunRecord();
 
-  /// The state before the first step. particle_momentum: of all particles, at half steps, kg m/s.
-  void start(const Flow& flow, const Vec3& particle_momentum);
+  /// The state before the first step. particles: dem_side's report of it; null without particles.
+  void start(const Flow& flow, const nlohmann::json& particles);
 
   /// One window (with particles) or time step (without).
   struct Window {
@@ -60,6 +61,7 @@ class RunRecord {
   void close_books(const Window& window, double liquid_volume);
   Quantities all_quantities(const Flow& flow, const nlohmann::json& particles) const;
   void write_row(const Flow& flow, const nlohmann::json& particles);
+  std::vector<std::string> warnings(const Flow& flow) const;
 
   std::filesystem::path out_;
   const CaseParameters& parameters_;
@@ -70,10 +72,16 @@ class RunRecord {
   std::optional<Ledger> ledger_;
   double initial_potential_ = 0;  // J
   Vec3 pending_;                  // owed to the particles, N s
-  double dem_step_ = 0;           // s
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
   nlohmann::json last_particles_;
+
+  /// Limits that acted, over the windows so far.
+  struct Limits {
+    long relieved_cells = 0, waiting_particles = 0;
+    double relieved_volume = 0, unplaced_volume = 0;  // m3
+    double unplaced_left_over = 0;                    // N s
+  } limits_;
 };
 
 }  // namespace demvof

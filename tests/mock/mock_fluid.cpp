@@ -104,7 +104,7 @@ int play(const Options& options, OwnWorld& world) {
               "solid volume on the bulk grid", 0);
   expect_near(total(particles, world).drag_impulse, {}, 0, "drag impulse before the first window", 0);
 
-  json report;
+  json report = json::parse(link.swap_text("{}"));
   Vec3 momentum = vec3(facts.at("momentum"));
   const long windows = std::lround(parameters.coupling.end_time / window);
   bool go_on = true;
