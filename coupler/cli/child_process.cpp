@@ -61,7 +61,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildO
 ChildProcess::~ChildProcess() {
   if (poll()) return;
   send_signal(SIGTERM);
-  wait();
+  while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 void ChildProcess::send_signal(int number) const {

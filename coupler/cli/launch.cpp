@@ -74,7 +74,7 @@ class Lines {
     const bool rule = text.size() >= 60 && text.find_first_not_of('-') == std::string::npos;
     if (rule) {
       in_block_ = !in_block_;
-    } else if (in_block_) {
+    } else if (in_block_ || text.rfind("mpirun: Forwarding signal", 0) == 0) {
       chatter_.push_back(text);
     } else {
       said_something_ = said_something_ || !text.empty();

@@ -25,12 +25,12 @@ long whole(const Json& json, const std::string& path) {
 std::string wall_times(const Json& r) {
   const double total = number(r, "/wall_seconds/total");
   std::string text = clock_text(total);
-  for (const char* part : {"fluid", "particles", "exchange", "waiting"}) {
+  for (const char* part : {"fluid", "particles", "exchange"}) {
     const double seconds = number(r, std::string("/wall_seconds/") + part);
     text += fmt::format(", {} {:.1f} s", part, seconds);
     if (total > 0) text += fmt::format(" ({:.0f} %)", 100 * seconds / total);
   }
-  return text;
+  return text + fmt::format(", both sides waited {:.1f} s", number(r, "/wall_seconds/waiting"));
 }
 
 }  // namespace
@@ -56,14 +56,16 @@ std::string run_summary(const Json& r) {
   row("cells",
       fmt::format("{} fine at most, {} bulk, of these {} exchanged at most", whole(r, "/cells/fine_max"),
                   whole(r, "/cells/bulk"), whole(r, "/cells/bulk_active_max")));
-  if (whole(r, "/particles/initial") + whole(r, "/particles/inserted") > 0)
+  const bool particles = whole(r, "/particles/initial") + whole(r, "/particles/inserted") > 0;
+  if (particles)
     row("particles", fmt::format("{} at the start, {} inserted, {} left, {} lost",
                                  whole(r, "/particles/initial"), whole(r, "/particles/inserted"),
                                  whole(r, "/particles/left"), whole(r, "/particles/lost")));
   row("worst relative errors",
-      fmt::format("exchange {:.1e}, momentum {:.1e}, solid volume {:.1e}, liquid volume {:.1e}",
-                  number(r, "/conservation/exchange"), number(r, "/conservation/momentum"),
-                  number(r, "/conservation/solid_volume"), number(r, "/conservation/liquid_volume")));
+      particles ? fmt::format("liquid volume {:.1e}, exchange {:.1e}, momentum {:.1e}, solid volume {:.1e}",
+                              number(r, "/conservation/liquid_volume"), number(r, "/conservation/exchange"),
+                              number(r, "/conservation/momentum"), number(r, "/conservation/solid_volume"))
+                : fmt::format("liquid volume {:.1e}", number(r, "/conservation/liquid_volume")));
   for (const std::string front : {"liquid", "solid"})
     if (const std::string path = "/quantities/" + front + "_front"; r.contains(Json::json_pointer(path)))
       row(front + " front", fmt::format("{:.4g} m", number(r, path)));
@@ -92,7 +94,7 @@ std::string output_list(const std::filesystem::path& folder) {
       {"report.html", "pictures and tables"}};
   std::string text = fmt::format("In {}:\n", folder.string());
   for (const auto& [name, meaning] : outputs)
-    if (std::filesystem::exists(folder / name)) text += fmt::format("  {:<23} {}\n", name, meaning);
+    if (std::filesystem::exists(folder / name)) text += fmt::format("  {:<24} {}\n", name, meaning);
   return text;
 }
 

@@ -193,7 +193,6 @@ TEST(ConfigurationHash, ChangesWithEveryKeyButTheRanks) {
                                  "coupling.averaging.maximum_solid_fraction=0.61",
                                  "coupling.mapping.to_fine=conservative",
                                  "coupling.mapping.to_bulk=conservative",
-                                 "forces=[]",
                                  "forces=[{drag: schiller_naumann}]",
                                  "forces=[{drag: none}, pressure_gradient]",
                                  "scene.particles=off",

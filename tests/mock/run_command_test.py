@@ -226,6 +226,7 @@ class RunCommand(unittest.TestCase):
         self.assertIn("stopping at the end of the window", output)
         self.assertIn("interrupted", output)
         self.assertNotIn("got SIGINT", output)
+        self.assertNotIn("mpirun", output)
 
     def test_nothing_is_left_running_when_demvof_is_killed(self):
         process = self.start("run", "case.yaml", fluid="wait", particles="wait")

@@ -98,7 +98,7 @@ TEST(RunSummary, ShowsWhatAUserAsksForFirst) {
     "warnings": ["void fraction limited 3 times"]})");
   const std::string text = run_summary(results);
   for (const char* part :
-       {"completed", "3:20", "2500 windows, 5000 fluid, 50000 DEM", "fluid 150.0 s (75 %)", "waiting 0.0 s",
+       {"completed", "3:20", "2500 windows, 5000 fluid, 50000 DEM", "fluid 150.0 s (75 %)", "waited 0.0 s",
         "3883 at the start, 0 inserted, 1 left, 2 lost", "exchange 1.0e-15", "liquid volume 4.0e-06",
         "liquid front           0.2 m", "solid front            0.1875 m", "void fraction limited 3 times"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
