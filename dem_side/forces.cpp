@@ -90,6 +90,10 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
 
 template <class Drag>
 void FluidForces::add_forces(const ParticleArrays& particles, double* const* external) {
+  if (window_ == 0) {  // Dem::set_up(): the forces before the first step, without fluid
+    for (int i = 0; i < particles.count; ++i) store(external[i], {});
+    return;
+  }
   const Drag drag_law;
   const double step = dem_.time_step();
   const Vec3 gravity = dem_.gravity();
