@@ -9,7 +9,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "dem_side/dem.hpp"
@@ -56,7 +58,7 @@ inline const char* integrate = "fix integrate all nve/sphere\n";
 class Scene {
  public:
   Scene(const std::string& name, const std::string& script, MPI_Comm world = MPI_COMM_WORLD)
-      : folder_(std::filesystem::temp_directory_path() / ("demvof_" + name)) {
+      : world_(world), folder_(std::filesystem::temp_directory_path() / ("demvof_" + name)) {
     int rank;
     MPI_Comm_rank(world, &rank);
     if (rank == 0) {
@@ -67,9 +69,20 @@ class Scene {
     dem = std::make_unique<demvof::Dem>(world, folder_ / "in.scene", folder_ / "particles.log");
   }
 
+  ~Scene() {
+    dem.reset();
+    std::filesystem::current_path(std::filesystem::temp_directory_path());
+    MPI_Barrier(world_);
+    std::error_code none;
+    std::filesystem::remove_all(folder_, none);
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
   std::unique_ptr<demvof::Dem> dem;
 
  private:
+  MPI_Comm world_;
   std::filesystem::path folder_;
 };
 
