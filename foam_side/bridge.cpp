@@ -141,7 +141,7 @@ void Bridge::spread_sources() {
 
 CellValues<BulkFluid> Bridge::bulk_fluid() const {
   const std::vector<double> weight = fine_weights();
-  const tmp<volVectorField> gradient = pressure_gradient(flow_);
+  const Foam::vectorField gradient = pressure_gradient(flow_);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
   std::vector<FluidSums> sums(touched_.size());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -150,7 +150,7 @@ CellValues<BulkFluid> Bridge::bulk_fluid() const {
     const double v = piece.volume, eps_v = eps(piece.fine) * v;
     sum.weighted_velocity += weight[piece.fine] * v * to_vec3(flow_.U[piece.fine]);
     sum.weight += weight[piece.fine] * v;
-    sum.pressure_gradient += v * to_vec3(gradient()[piece.fine]);
+    sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
     sum.eps_rho += eps_v * flow_.rho[piece.fine];
     sum.eps_mu += eps_v * viscosity()[piece.fine];
     sum.eps += eps_v;

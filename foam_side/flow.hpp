@@ -154,7 +154,7 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow);
 
 /// Gradient of the total pressure from the face values that drive the momentum equation, Pa/m:
 /// exactly rho g in a fluid at rest.
-tmp<volVectorField> pressure_gradient(const Flow& flow);
+Foam::vectorField pressure_gradient(const Flow& flow);
 
 /// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s, one value per cell.
 tmp<scalarField> dynamic_viscosity(const Flow& flow);

@@ -9,9 +9,12 @@
 
 namespace demvof {
 
-tmp<volVectorField> pressure_gradient(const Flow& flow) {
-  return fvc::reconstruct((fvc::snGrad(flow.p_rgh) + flow.ghf * fvc::snGrad(flow.rho)) * flow.mesh.magSf()) +
-         flow.rho * flow.g;
+Foam::vectorField pressure_gradient(const Flow& flow) {
+  const surfaceScalarField balance((fvc::snGrad(flow.p_rgh) + flow.ghf * fvc::snGrad(flow.rho)) *
+                                   flow.mesh.magSf());
+  Foam::vectorField gradient = (*flow.reconstruct)([&](const auto& at, label) { return at(balance); });
+  gradient += flow.rho.primitiveField() * flow.g.value();
+  return gradient;
 }
 
 tmp<scalarField> dynamic_viscosity(const Flow& flow) {
