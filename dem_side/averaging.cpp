@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "coupler/link/mpi_check.hpp"
 
@@ -48,7 +49,7 @@ const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& partic
     positions[i] = vec3(particles.position[i]);
     outside_ += beyond_a_wall(grid_, positions[i]);
   }
-  weights_ = kernel_weights(grid_, parameters_, positions);
+  weights_ = kernel_weights(grid_, parameters_, positions, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
 
   std::vector<BulkParticles> touched(weights_.cells.size());
