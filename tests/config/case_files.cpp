@@ -151,6 +151,17 @@ TEST(CaseFiles, RunWithoutTheirParticlesWhenTheseAreOff) {
   EXPECT_FALSE(read_case(file.path(), {"scene.particles=off"}).particles);
 }
 
+TEST(CaseFiles, OfTheShippedCasesAreInOrder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(DEMVOF_DOCS).parent_path() / "cases")) {
+    const fs::path file = entry.path() / "case.yaml";
+    if (!fs::exists(file)) continue;
+    EXPECT_NO_THROW(read_case(file.string())) << file;
+    ++count;
+  }
+  EXPECT_GE(count, 2);
+}
+
 TEST(ResolvedConfiguration, IsACaseFileWithTheSameContent) {
   for (const std::string& text : {plain, full}) {
     const CaseFile file(text);
