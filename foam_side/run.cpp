@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
+#include "coupler/scene/resolved_numbers.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/fluid_case.hpp"
@@ -88,6 +90,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, con
     {
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, static_cast<double>(n) * window);
+      bridge.spread_sources();  // the flux is fitted to the new window with its drag
       if (flow.porosity) set_porosity_target(flow, bridge.void_fraction());
       while (step_fluid(flow, &bridge)) {
       }
@@ -112,8 +115,9 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, con
   return go_on ? RunStatus::completed : RunStatus::interrupted;
 }
 
-/// Plain VOF: steps and output times as in controlDict, like interFoam.
-RunStatus run_alone(Flow& flow, RunRecord& record) {
+/// Plain VOF: steps and output times as in controlDict, like interFoam, to the case file's end time.
+RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& record) {
+  if (parameters.coupling.end_time > 0) flow.time.setEndTime(parameters.coupling.end_time);
   FluidSeconds seconds;
   record.start(flow, json());
   bool go_on = true;
@@ -157,9 +161,27 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.largest_solid_fraction = particles.at("largest_solid_fraction");
 }
 
-void print_scene(const Scene& scene) {
-  for (const Decision& decision : scene.decisions)
-    fmt::print("  {:<24} {:<4} {}\n", decision.decision, decision.on ? "on" : "off", decision.reason);
+/// The first window's numbers; the flow has not moved, so its step is the one it starts with.
+ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow, const json& particles) {
+  ResolvedNumbers numbers;
+  numbers.fluid_time_step = flow.time.deltaTValue();
+  numbers.fine_cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
+  if (particles.is_null()) return numbers;
+  const BulkGridParameters& box = *parameters.bulk_grid;
+  const BulkGrid grid(box.lower, box.upper, box.cells);
+  numbers.window = parameters.coupling.window;
+  numbers.windows = std::lround(parameters.coupling.end_time / numbers.window);
+  numbers.dem_time_step = particles.at("time_step");
+  numbers.dem_steps = std::lround(numbers.window / numbers.dem_time_step);
+  numbers.fluid_steps =
+      std::max(1L, static_cast<long>(std::ceil(numbers.window / numbers.fluid_time_step - 1e-9)));
+  numbers.fluid_time_step = numbers.window / static_cast<double>(numbers.fluid_steps);
+  numbers.bulk_cells = static_cast<long>(grid.cell_count());
+  numbers.bulk_spacing = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+  numbers.particles = particles.at("particle_count");
+  numbers.min_diameter = particles.at("min_diameter");
+  numbers.max_diameter = particles.at("max_diameter");
+  return numbers;
 }
 
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
@@ -181,21 +203,22 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
                         facts_as_json(facts).dump()));
     add_particle_facts(facts, particles);
   }
-  const Scene scene = plan_scene(parameters.scene, facts);
+  const Scene scene = plan_scene(parameters.scene, facts, parameters.forces);
 
   run_stage().set("reading the fluid case");
   const std::unique_ptr<Flow> flow = open_flow(args, scene);
   install_signal_handlers();
   if (paired) require_grid_covers_mesh(*parameters.bulk_grid, mesh_box(flow->mesh));
   if (options.check) {
-    if (world.rank() == 0) print_scene(scene);
+    const ResolvedNumbers numbers = resolved_numbers(parameters, *flow, particles);
+    if (world.rank() == 0) fmt::print("{}\n{}", scene_table(scene.decisions), numbers_table(numbers));
     if (link) link->close();
     return exit_done;
   }
 
   RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
   const RunStatus status =
-      link ? run_pair(*flow, parameters, *link, world, record) : run_alone(*flow, record);
+      link ? run_pair(*flow, parameters, *link, world, record) : run_alone(*flow, parameters, record);
   record.finish(*flow, status);
   if (link) link->close();
   return status == RunStatus::completed ? exit_done : exit_failed;
