@@ -96,7 +96,7 @@ class BothPrograms(unittest.TestCase):
 
     def test_a_script_that_liggghts_does_not_understand(self):
         self.edit("particles/in.settling_particle", "create_atoms ", "create_beads ")
-        self.refused(3, "create_beads")
+        self.refused(2, "create_beads")
 
     def test_a_fluid_case_without_schemes(self):
         (self.folder / "fluid/system/fvSchemes").unlink()
