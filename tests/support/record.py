@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a verification test measured: values with their bounds, and curves for its picture.
+
+    record = Record("terminal_velocity", "Terminal velocity of six spheres", "What is tested and against what.")
+    record.at_most("worst error", 0.004, 0.01, "-")
+    record.note("bulk cells", 120, "-")
+    record.curve("error against bulk spacing", "spacing / d", "error, -", "measured", xs, ys, log="xy")
+    sys.exit(record.write())
+
+write() prints a table, writes <folder>/<row>.json and returns 0 when every bound holds, 1 otherwise. The folder is
+$DEMVOF_RECORDS, or records/ below the working directory. record.hpp writes the same file from C++.
+"""
+import json
+import math
+import os
+import pathlib
+import sys
+import time
+
+
+class Record:
+    def __init__(self, row, title, what, command=None):
+        """row: file name and key; what: a paragraph for docs/verification.md; command: that repeats it, from the
+        project's top folder (default: this program and its arguments)."""
+        self.row, self.title, self.what = row, title, what
+        self.command = command or " ".join(os.path.relpath(word) if os.path.isabs(word) else word for word in sys.argv)
+        self.values, self.curves = [], []
+        self.begin = time.monotonic()
+
+    def _add(self, name, value, bound, unit, comparison, passed):
+        self.values.append({"name": name, "value": value, "bound": bound, "unit": unit, "comparison": comparison,
+                            "passed": bool(passed)})
+
+    def at_most(self, name, value, bound, unit="-"):
+        self._add(name, value, bound, unit, "at most", math.isfinite(value) and value <= bound)
+
+    def at_least(self, name, value, bound, unit="-"):
+        self._add(name, value, bound, unit, "at least", math.isfinite(value) and value >= bound)
+
+    def note(self, name, value, unit="-"):
+        """A number that is measured and held to no bound."""
+        self._add(name, value, None, unit, "recorded", True)
+
+    def curve(self, picture, x_label, y_label, series, x, y, log="", style="o-"):
+        """A line of a picture: curves of the same `picture` share axes. log: any of "x", "y". style: as in
+        matplotlib, e.g. "k-" for what is exact."""
+        self.curves.append({"picture": picture, "x_label": x_label, "y_label": y_label, "series": series,
+                            "x": [float(v) for v in x], "y": [float(v) for v in y], "log": log, "style": style})
+
+    def write(self):
+        folder = pathlib.Path(os.environ.get("DEMVOF_RECORDS", "records"))
+        folder.mkdir(parents=True, exist_ok=True)
+        content = {"row": self.row, "title": self.title, "what": self.what, "command": self.command,
+                   "wall_seconds": round(time.monotonic() - self.begin, 1), "values": self.values,
+                   "curves": self.curves}
+        (folder / f"{self.row}.json").write_text(json.dumps(content, indent=1) + "\n")
+        for v in self.values:
+            bound = "" if v["bound"] is None else f"({v['comparison']} {v['bound']:.4g})"
+            value = v["value"] if isinstance(v["value"], (int, str)) else f"{v['value']:.4g}"
+            print(f"{'ok ' if v['passed'] else 'NOT'}  {v['name']:<60} {value} {v['unit']} {bound}")
+        return 0 if all(v["passed"] for v in self.values) else 1
