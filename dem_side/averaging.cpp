@@ -41,6 +41,13 @@ Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& 
                      const AveragingParameters& parameters)
     : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {}
 
+void Averaging::set_open_shares(CellValues<double> open_share) {
+  open_share_ = std::move(open_share);
+  int partial = open_share_.cells.empty() ? 0 : 1;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &partial, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
+  all_open_ = partial == 0;
+}
+
 const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& particles,
                                                     const std::vector<BulkParticles>& contributions) {
   std::vector<Vec3> positions(particles.count);
@@ -51,11 +58,13 @@ const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& partic
   }
   weights_ = kernel_weights(grid_, parameters_, positions, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
+  if (!all_open_) count_open_shares(touched_->fetch_from_owners(open_share_, 1.0), weights_);
 
   std::vector<BulkParticles> touched(weights_.cells.size());
   demvof::deposit(weights_, rows(contributions), row_width<BulkParticles>(), rows(touched));
   deposited_ = touched_->sum_to_owners(touched);
-  relief_ = limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, deposited_);
+  relief_ =
+      limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, open_share_, deposited_);
   return deposited_;
 }
 

@@ -23,6 +23,10 @@ class Averaging {
   Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
             const AveragingParameters& parameters);
 
+  /// Cells of this rank that the fluid mesh does not fill, with the fluid's share in their volume: particles
+  /// count in that share only. Collective.
+  void set_open_shares(CellValues<double> open_share);
+
   /// Sums the particles' contributions into the bulk cells they reach; what is above the largest
   /// solid fraction of a cell moves to its neighbours. Collective.
   /// contributions: one per local particle. Returned: this rank's cells.
@@ -50,6 +54,8 @@ class Averaging {
   BulkGrid grid_;
   BulkPartition partition_;
   AveragingParameters parameters_;
+  CellValues<double> open_share_;  // this rank's cells that are not all open
+  bool all_open_ = true;           // on all ranks
   KernelWeights weights_;
   std::optional<TouchedCells> touched_;
   CellValues<BulkParticles> deposited_;

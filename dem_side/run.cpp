@@ -42,6 +42,7 @@ std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& wo
                         {"solid_volume", census.solid_volume},
                         {"inserts_particles", dem.inserts_particles()},
                         {"time_step", dem.time_step()},
+                        {"periodic", dem.domain().periodic},
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
                         {"momentum", {momentum.x, momentum.y, momentum.z}},
                         {"ranks", world.size()}}
@@ -76,6 +77,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     return exit_done;
   }
 
+  run_stage().set("first exchange");
+  averaging.set_open_shares(link.receive<double>());
+  averaging.deposit(dem.particles(), forces.contributions());
   Report report(dem);
   survivor.start(report.count());
   Output output(dem, grid, options.out, parameters.output.interval);

@@ -15,6 +15,7 @@
 #include <iterator>
 
 #include "coupler/link/errors.hpp"
+#include "coupler/link/mpi_check.hpp"
 #include "foam_side/fine_mesh.hpp"
 
 namespace demvof {
@@ -24,6 +25,9 @@ namespace {
 // Below this the drag and pressure terms of the porous equations lose their meaning (closest packing
 // of spheres of one size leaves 0.26).
 constexpr double smallest_void_fraction = 0.05;
+
+// A bulk cell is full of fluid mesh up to what the corners of a mesh, as written in its file, leave open.
+constexpr double full = 1 - 1e-6;
 
 /// Sums over the fine cells of a bulk cell that give its BulkFluid.
 struct FluidSums {
@@ -49,12 +53,9 @@ BulkFluid means(const FluidSums& sum) {
 
 }  // namespace
 
-Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkPartition& partition, MPI_Comm world)
-    : flow_(flow),
-      parameters_(parameters),
-      world_(world),
-      grid_(parameters.bulk_grid->lower, parameters.bulk_grid->upper, parameters.bulk_grid->cells),
-      partition_(partition) {
+Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid,
+               const BulkPartition& partition, MPI_Comm world)
+    : flow_(flow), parameters_(parameters), world_(world), grid_(grid), partition_(partition) {
   remap();
 }
 
@@ -62,6 +63,24 @@ void Bridge::remap() {
   remap_ =
       std::make_unique<Remap>(world_, grid_, partition_, fine_mesh(flow_.mesh), parameters_.coupling.mapping);
   distribute();
+}
+
+CellValues<double> Bridge::open_shares() const {
+  std::vector<double> here(remap_->cells().cells().size(), 0.0);
+  for (const Piece& piece : remap_->pieces()) here[piece.slot] += piece.volume;
+  const CellValues<double> met = remap_->cells().sum_to_owners(here);
+  CellValues<double> open;
+  int rank;
+  check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
+  std::size_t next = 0;
+  for (CellId cell = partition_.begin(rank); cell < partition_.end(rank); ++cell) {
+    const bool known = next < met.cells.size() && met.cells[next] == cell;
+    const double share = known ? met.values[next++] / grid_.cell_volume() : 0.0;
+    if (share >= full) continue;
+    open.cells.push_back(cell);
+    open.values.push_back(share);
+  }
+  return open;
 }
 
 void Bridge::take(CellValues<BulkParticles> particles) {

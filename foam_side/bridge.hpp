@@ -17,10 +17,14 @@ namespace demvof {
 /// sent) are averaged. All calls are collective over the fluid side.
 class Bridge {
  public:
-  Bridge(Flow& flow, const CaseParameters& parameters, const BulkPartition& partition, MPI_Comm world);
+  Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid, const BulkPartition& partition,
+         MPI_Comm world);
 
   /// Builds the way to the bulk grid anew, when the mesh has changed.
   void remap();
+
+  /// Bulk cells owned by this rank that the mesh does not fill, and the mesh's share in their volume.
+  CellValues<double> open_shares() const;
 
   /// Takes what the particles sent at the end of their window; these cells are active from now on.
   /// particles: cells owned by this rank.

@@ -16,8 +16,8 @@
 #include "coupler/output/machine.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
 #include "foam_side/bridge.hpp"
-#include "foam_side/fine_mesh.hpp"
 #include "foam_side/fluid_case.hpp"
+#include "foam_side/mesh_ends.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
 
@@ -60,15 +60,16 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   return true;
 }
 
-RunStatus run_pair(Flow& flow, const CaseParameters& parameters, Link& link, const OwnWorld& world,
-                   RunRecord& record) {
+RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid, Link& link,
+                   const OwnWorld& world, RunRecord& record) {
   const double window = parameters.coupling.window, end_time = parameters.coupling.end_time;
   const long windows = std::lround(end_time / window);
   FieldOutput fields(parameters.output.interval);
   FluidSeconds seconds;
 
   run_stage().set("first void fraction");
-  Bridge bridge(flow, parameters, link.mine(), world.comm());
+  Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
+  link.send(bridge.open_shares());
   bridge.take(link.receive<BulkParticles>());
   if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
   flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
@@ -136,18 +137,6 @@ RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& rec
   return RunStatus::interrupted;
 }
 
-void require_grid_covers_mesh(const BulkGridParameters& grid, const MeshBox& mesh) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double tolerance = 1e-6 * (mesh.upper[axis] - mesh.lower[axis]);
-    if (grid.lower[axis] <= mesh.lower[axis] + tolerance && grid.upper[axis] >= mesh.upper[axis] - tolerance)
-      continue;
-    throw InputError(
-        fmt::format("bulk_grid: from {} to {} m along {}, but the fluid mesh goes from {} to {} m: the bulk "
-                    "grid must cover it",
-                    grid.lower[axis], grid.upper[axis], "xyz"[axis], mesh.lower[axis], mesh.upper[axis]));
-  }
-}
-
 json facts_as_json(const SceneFacts& facts) {
   return {{"surface_tension", facts.surface_tension},
           {"two_fluids", facts.two_fluids},
@@ -162,13 +151,12 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
 }
 
 /// The first window's numbers; the flow has not moved, so its step is the one it starts with.
-ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow, const json& particles) {
+ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow,
+                                 const std::optional<BulkGrid>& grid, const json& particles) {
   ResolvedNumbers numbers;
   numbers.fluid_time_step = flow.time.deltaTValue();
   numbers.fine_cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
   if (particles.is_null()) return numbers;
-  const BulkGridParameters& box = *parameters.bulk_grid;
-  const BulkGrid grid(box.lower, box.upper, box.cells);
   numbers.window = parameters.coupling.window;
   numbers.windows = std::lround(parameters.coupling.end_time / numbers.window);
   numbers.dem_time_step = particles.at("time_step");
@@ -176,8 +164,8 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
   numbers.fluid_steps =
       std::max(1L, static_cast<long>(std::ceil(numbers.window / numbers.fluid_time_step - 1e-9)));
   numbers.fluid_time_step = numbers.window / static_cast<double>(numbers.fluid_steps);
-  numbers.bulk_cells = static_cast<long>(grid.cell_count());
-  numbers.bulk_spacing = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+  numbers.bulk_cells = static_cast<long>(grid->cell_count());
+  numbers.bulk_spacing = std::min({grid->spacing().x, grid->spacing().y, grid->spacing().z});
   numbers.particles = particles.at("particle_count");
   numbers.min_diameter = particles.at("min_diameter");
   numbers.max_diameter = particles.at("max_diameter");
@@ -192,25 +180,27 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   SceneFacts facts = fluid_facts(args);
 
   std::optional<Link> link;
+  std::optional<BulkGrid> grid;
   json particles;
   if (paired) {
     run_stage().set("handshake");
-    const BulkGridParameters& grid = *parameters.bulk_grid;
-    link.emplace(world, BulkGrid(grid.lower, grid.upper, grid.cells).cell_count(),
-                 parameters.coupling.time_out);
+    const BulkGridParameters& box = *parameters.bulk_grid;
+    grid.emplace(box.lower, box.upper, box.cells);
+    link.emplace(world, grid->cell_count(), parameters.coupling.time_out);
     particles = json::parse(
         link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args)),
                         facts_as_json(facts).dump()));
     add_particle_facts(facts, particles);
+    grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
   }
   const Scene scene = plan_scene(parameters.scene, facts, parameters.forces);
 
   run_stage().set("reading the fluid case");
   const std::unique_ptr<Flow> flow = open_flow(args, scene);
   install_signal_handlers();
-  if (paired) require_grid_covers_mesh(*parameters.bulk_grid, mesh_box(flow->mesh));
+  if (paired) require_mesh_fits(*grid, flow->mesh);
   if (options.check) {
-    const ResolvedNumbers numbers = resolved_numbers(parameters, *flow, particles);
+    const ResolvedNumbers numbers = resolved_numbers(parameters, *flow, grid, particles);
     if (world.rank() == 0) fmt::print("{}\n{}", scene_table(scene.decisions), numbers_table(numbers));
     if (link) link->close();
     return exit_done;
@@ -218,7 +208,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
 
   RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
   const RunStatus status =
-      link ? run_pair(*flow, parameters, *link, world, record) : run_alone(*flow, parameters, record);
+      link ? run_pair(*flow, parameters, *grid, *link, world, record) : run_alone(*flow, parameters, record);
   record.finish(*flow, status);
   if (link) link->close();
   return status == RunStatus::completed ? exit_done : exit_failed;

@@ -66,6 +66,16 @@ KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& av
   return weights;
 }
 
+void count_open_shares(const std::vector<double>& share, KernelWeights& weights) {
+  for (int particle = 0; particle < weights.particles(); ++particle) {
+    const int first = weights.first[particle], last = weights.first[particle + 1];
+    double sum = 0;
+    for (int entry = first; entry < last; ++entry) sum += weights.weight[entry] * share[weights.slot[entry]];
+    if (!(sum > 0)) continue;
+    for (int entry = first; entry < last; ++entry) weights.weight[entry] *= share[weights.slot[entry]] / sum;
+  }
+}
+
 void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows) {
   std::fill_n(cell_rows, weights.cells.size() * width, 0.0);
   for (int particle = 0; particle < weights.particles(); ++particle) {

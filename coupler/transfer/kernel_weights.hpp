@@ -23,6 +23,12 @@ struct KernelWeights {
 KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging,
                              const std::vector<Vec3>& positions, KernelWeights storage = {});
 
+/// Makes cells count by their share that is open to the fluid (per touched cell, 0 to 1):
+///   w_ic <- w_ic share_c / sum over c of w_ic share_c
+/// so that a bed beside a wall across the grid is as dense as inside. A particle that reaches no open cell
+/// keeps its weights.
+void count_open_shares(const std::vector<double>& share, KernelWeights& weights);
+
 /// Sum over particles of w_ic * rows, per touched cell. rows: particles x width.
 void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows);
 /// Sum over cells of w_ic * cell_rows, per particle: the transpose of deposit.

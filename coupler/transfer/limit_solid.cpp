@@ -28,16 +28,18 @@ struct Excess {
   double cells = 0;   // above the limit
   double volume = 0;  // that is too much in them, m3
   double total = 0;   // solid volume of all cells, m3
+  double room = 0;    // most that they can hold, m3
 };
-Excess total_excess(MPI_Comm world, const std::vector<double>& volumes, double limit) {
+Excess total_excess(MPI_Comm world, const std::vector<double>& volume, const std::vector<double>& limit) {
   Excess excess;
-  for (const double volume : volumes) {
-    excess.total += volume;
-    if (volume <= limit * (1 + tolerance)) continue;
+  for (std::size_t c = 0; c < volume.size(); ++c) {
+    excess.total += volume[c];
+    excess.room += limit[c];
+    if (volume[c] <= limit[c] * (1 + tolerance)) continue;
     excess.cells += 1;
-    excess.volume += volume - limit;
+    excess.volume += volume[c] - limit[c];
   }
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &excess.cells, 3, MPI_DOUBLE, MPI_SUM, world), "MPI_Allreduce");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &excess.cells, 4, MPI_DOUBLE, MPI_SUM, world), "MPI_Allreduce");
   return excess;
 }
 
@@ -88,24 +90,25 @@ class Neighbourhood {
 
 /// One round: every cell above the limit gives, and every cell adds up what its neighbours give to it in the
 /// order of its faces, wherever they are stored: hence the same sums on any number of ranks.
-void pass_on(const Neighbourhood& around, double limit, std::vector<double>& volume) {
-  const std::vector<double> beside_volume = around.share(volume);
+void pass_on(const Neighbourhood& around, const std::vector<double>& limit, std::vector<double>& volume) {
+  std::vector<double> room(volume.size());
+  for (std::size_t c = 0; c < volume.size(); ++c) room[c] = limit[c] - volume[c];
+  const std::vector<double> beside_room = around.share(room);
   std::vector<Gift> gifts(volume.size());
   for (std::size_t c = 0; c < volume.size(); ++c) {
-    if (volume[c] <= limit * (1 + tolerance)) continue;
+    if (volume[c] <= limit[c] * (1 + tolerance)) continue;
     int with_room = 0, all = 0;
     for (const int slot : around.beside()[c])
       if (slot >= 0) {
         ++all;
-        with_room += beside_volume[slot] < limit;
+        with_room += beside_room[slot] > 0;
       }
-    if (all > 0)
-      gifts[c] = {(volume[c] - limit) / (with_room > 0 ? with_room : all), with_room > 0 ? 0.0 : 1.0};
+    if (all > 0) gifts[c] = {-room[c] / (with_room > 0 ? with_room : all), with_room > 0 ? 0.0 : 1.0};
   }
   const std::vector<Gift> beside_gift = around.share(gifts);
   for (std::size_t c = 0; c < volume.size(); ++c) {
-    const bool has_room = volume[c] < limit;
-    if (gifts[c].share > 0) volume[c] = limit;
+    const bool has_room = room[c] > 0;
+    if (gifts[c].share > 0) volume[c] = limit[c];
     for (const int slot : around.beside()[c])
       if (slot >= 0 && (has_room || beside_gift[slot].to_everyone > 0)) volume[c] += beside_gift[slot].share;
   }
@@ -114,21 +117,32 @@ void pass_on(const Neighbourhood& around, double limit, std::vector<double>& vol
 }  // namespace
 
 SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
-                        double maximum_solid_fraction, CellValues<BulkParticles>& owned) {
-  const double limit = maximum_solid_fraction * grid.cell_volume();
-  std::vector<double> given;
+                        double maximum_solid_fraction, const CellValues<double>& open_share,
+                        CellValues<BulkParticles>& owned) {
+  const double whole = maximum_solid_fraction * grid.cell_volume();
+  std::vector<double> given, limit(owned.cells.size(), whole);
   for (const BulkParticles& cell : owned.values) given.push_back(cell.solid_volume);
+  for (std::size_t i = 0, next = 0; i < open_share.cells.size(); ++i) {
+    while (next < owned.cells.size() && owned.cells[next] < open_share.cells[i]) ++next;
+    if (next < owned.cells.size() && owned.cells[next] == open_share.cells[i])
+      limit[next] *= open_share.values[i];
+  }
   Excess excess = total_excess(world, given, limit);
   SolidRelief relief{static_cast<CellId>(excess.cells), excess.volume, 0};
   if (relief.cells == 0) return relief;
-  if (excess.total > limit * grid.cell_count()) return {relief.cells, 0, excess.volume};
 
   int rank;
   check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
-  const Neighbourhood around(world, grid, partition, rank);
   const CellId begin = partition.begin(rank);
   std::vector<double> volume(partition.end(rank) - begin, 0.0);
+  limit.assign(volume.size(), whole);
   for (std::size_t i = 0; i < owned.cells.size(); ++i) volume[owned.cells[i] - begin] = given[i];
+  for (std::size_t i = 0; i < open_share.cells.size(); ++i)
+    limit[open_share.cells[i] - begin] *= open_share.values[i];
+  excess = total_excess(world, volume, limit);
+  if (excess.total > excess.room) return {relief.cells, 0, excess.volume};
+
+  const Neighbourhood around(world, grid, partition, rank);
   for (int round = 0; excess.cells > 0 && round < most_rounds; ++round) {
     pass_on(around, limit, volume);
     excess = total_excess(world, volume, limit);

@@ -14,7 +14,8 @@ struct SolidRelief {
   double not_placed = 0;  // still above the limit somewhere, because the grid has no room for it, m3
 };
 
-/// Moves solid volume out of bulk cells that hold more than maximum_solid_fraction of their volume.
+/// Moves solid volume out of bulk cells that hold more than maximum_solid_fraction of the volume that is open
+/// to the fluid in them.
 ///
 /// The excess of a cell goes in equal shares to those of its face neighbours that are below the limit, or to
 /// all of them when none is; this is repeated until no cell is above the limit. The sum over all cells is
@@ -22,8 +23,10 @@ struct SolidRelief {
 /// changes; cells that had no particles become active when they receive some. When all cells together have
 /// less room than there are particles nothing is moved.
 ///
-/// owned: cells owned by this rank. Collective over world.
+/// open_share: the fluid's share in the volume of those cells that the fluid mesh does not fill, -; the
+/// others are all open. owned, open_share: cells owned by this rank. Collective over world.
 SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
-                        double maximum_solid_fraction, CellValues<BulkParticles>& owned);
+                        double maximum_solid_fraction, const CellValues<double>& open_share,
+                        CellValues<BulkParticles>& owned);
 
 }  // namespace demvof

@@ -99,6 +99,7 @@ int play(const Options& options, OwnWorld& world) {
   }
 
   const double solid_volume = facts.at("solid_volume");
+  link.send(CellValues<double>{});  // water fills all bulk cells
   CellValues<BulkParticles> particles = link.receive<BulkParticles>();
   expect_near(total(particles, world).solid_volume, solid_volume, 1e-12 * solid_volume,
               "solid volume on the bulk grid", 0);

@@ -20,7 +20,8 @@ struct Outcome {
   Volumes volumes;
   SolidRelief relief;
 };
-Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volumes& before) {
+Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volumes& before,
+                const Volumes& open_shares = {}) {
   int rank, ranks;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -33,8 +34,14 @@ Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volu
       owned.values.back().solid_volume = volume;
       owned.values.back().drag_factor = 7 + static_cast<double>(cell);
     }
+  CellValues<double> open_share;
+  for (const auto& [cell, share] : open_shares)
+    if (partition.owner(cell) == rank) {
+      open_share.cells.push_back(cell);
+      open_share.values.push_back(share);
+    }
   Outcome outcome;
-  outcome.relief = limit_solid(comm, grid, partition, fraction, owned);
+  outcome.relief = limit_solid(comm, grid, partition, fraction, open_share, owned);
 
   std::vector<double> all(grid.cell_count(), -1.0);
   CellId before_this = -1;
@@ -80,6 +87,18 @@ TEST(LimitSolid, TheExcessGoesInEqualSharesToNeighboursWithRoom) {
   EXPECT_DOUBLE_EQ(outcome.volumes.at(grid.id({1, 1, 2})), 0.1);
   EXPECT_EQ(outcome.relief.cells, 1);
   EXPECT_DOUBLE_EQ(outcome.relief.volume, 0.5);
+  EXPECT_EQ(outcome.relief.not_placed, 0);
+}
+
+TEST(LimitSolid, ACellIsFullWhenItsOpenShareIs) {
+  const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
+  // A quarter of cell 1 is open, and nothing of cell 3.
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, {{1, 0.375}, {3, 0.25}}, {{1, 0.25}, {3, 0.0}});
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(0), 0.125);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(1), 0.125);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(2), 0.375);
+  EXPECT_EQ(outcome.volumes.at(3), 0.0);
+  EXPECT_EQ(outcome.relief.cells, 2);
   EXPECT_EQ(outcome.relief.not_placed, 0);
 }
 

@@ -75,6 +75,24 @@ TEST(KernelWeights, NoParticlesNoCells) {
   EXPECT_TRUE(weights.cells.empty());
 }
 
+TEST(KernelWeights, CellsCountByTheirOpenShare) {
+  const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
+  // Halfway between cells 1 and 2; in cell 3; in cell 0, of which nothing is open.
+  KernelWeights weights =
+      kernel_weights(grid, averaging(Kernel::linear), {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}});
+  std::vector<double> share;
+  for (const CellId cell : weights.cells)
+    share.push_back(std::map<CellId, double>{{0, 0}, {1, 0.25}, {2, 1}, {3, 1}}[cell]);
+  count_open_shares(share, weights);
+  std::vector<std::map<CellId, double>> found(3);
+  for (int i = 0; i < 3; ++i)
+    for (int e = weights.first[i]; e < weights.first[i + 1]; ++e)
+      if (weights.weight[e] != 0) found[i][weights.cells[weights.slot[e]]] = weights.weight[e];
+  EXPECT_EQ(found[0], (std::map<CellId, double>{{1, 0.2}, {2, 0.8}}));
+  EXPECT_EQ(found[1], (std::map<CellId, double>{{3, 1}}));
+  EXPECT_EQ(found[2], (std::map<CellId, double>{{0, 1}})) << "reaches no open cell";
+}
+
 TEST(KernelWeights, CentreGivesAllToTheCellOfTheParticle) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30});
   for (const Vec3& point : awkward_points(grid)) {

@@ -108,11 +108,13 @@ class BoxCase:
     longest_step: float = 1e9  # of the fluid
     first_step: float = None   # default: the window
     tolerance: float = 1e-10   # of the pressure solver
+    relative_tolerance: float = 0.01  # of all but the last correction
     pimple: str = ""           # further entries of PIMPLE
     alpha_controls: str = "nAlphaCorr 1; nAlphaSubCycles 1; cAlpha 1; MULESCorr no;"
     output_interval: float = 0
     history_interval: float = 0
     script_tail: str = ""      # further lines of the LIGGGHTS script
+    periodic: list = None      # of the particles' box, per direction; default: where the sides are cyclic
     prepare: list = None
 
     def write(self):
@@ -184,7 +186,8 @@ class BoxCase:
               "snGradSchemes { default corrected; }\n")
         write("system/fvSolution", "dictionary",
               f"solvers\n{{\n    \"alpha.water.*\" {{ {self.alpha_controls} }}\n"
-              f"    p_rgh {{ solver PCG; preconditioner DIC; tolerance {self.tolerance}; relTol 0.01; }}\n"
+              f"    p_rgh {{ solver PCG; preconditioner DIC; tolerance {self.tolerance}; "
+              f"relTol {self.relative_tolerance}; }}\n"
               "    p_rghFinal { $p_rgh; relTol 0; }\n    \"pcorr.*\" { $p_rgh; relTol 0; }\n"
               "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
               "PIMPLE { momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonalCorrectors 0; "
@@ -230,7 +233,7 @@ class BoxCase:
             lines.append("{} {:.17g} {:.17g} {:.17g} 0 0 0".format(i, *p.velocity))
         (folder / "particles.data").write_text("\n".join(lines) + "\n")
 
-        periodic = [self.sides[axis + "-"]["type"] == "cyclic" for axis in "xyz"]
+        periodic = self.periodic or [self.sides[axis + "-"]["type"] == "cyclic" for axis in "xyz"]
         largest = max(p.diameter for p in self.particles)
         k = self.stiffness
         script = f"""units si

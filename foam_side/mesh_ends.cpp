@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/mesh_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "coupler/config/read_case.hpp"
+#include "foam_side/fine_mesh.hpp"
+#include "processorCyclicPolyPatch.H"
+
+namespace demvof {
+namespace {
+
+constexpr double tolerance = 1e-6;  // of the mesh's extent; numbers that a user wrote in two files
+
+/// The boundary in the two planes that end the mesh in one direction, m2, over all ranks.
+struct Ends {
+  double area = 0, cyclic = 0;
+};
+
+bool wraps(const Foam::polyPatch& patch) {
+  return patch.coupled() &&
+         (!Foam::isA<Foam::processorPolyPatch>(patch) || Foam::isA<Foam::processorCyclicPolyPatch>(patch));
+}
+
+/// The direction whose end the face lies in, -1 for none.
+int end_of(const MeshBox& box, const vector& centre, const vector& normal) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = tolerance * (box.upper[axis] - box.lower[axis]);
+    const bool at_end = centre[axis] < box.lower[axis] + margin || centre[axis] > box.upper[axis] - margin;
+    if (at_end && std::abs(normal[axis]) > (1 - tolerance) * Foam::mag(normal)) return axis;
+  }
+  return -1;
+}
+
+std::array<Ends, 3> find_ends(const Foam::fvMesh& mesh) {
+  const MeshBox box = mesh_box(mesh);
+  scalarField sums(7, Foam::Zero);  // area and cyclic area per axis, cyclic area elsewhere
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
+    if (Foam::isA<Foam::processorPolyPatch>(patch) && !wraps(patch)) continue;
+    forAll(patch, face) {
+      const vector normal = patch.faceAreas()[face];
+      const int axis = end_of(box, patch.faceCentres()[face], normal);
+      const double area = Foam::mag(normal);
+      if (axis >= 0) sums[2 * axis] += area;
+      if (wraps(patch)) sums[axis >= 0 ? 2 * axis + 1 : 6] += area;
+    }
+  }
+  Foam::reduce(sums, Foam::sumOp<scalarField>());
+  if (sums[6] > 0)
+    throw InputError(
+        "the fluid mesh has cyclic patches that do not lie in the ends of its box: particles cannot follow "
+        "the fluid there");
+  return {Ends{sums[0], sums[1]}, Ends{sums[2], sums[3]}, Ends{sums[4], sums[5]}};
+}
+
+void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis) {
+  const double margin = tolerance * (mesh.upper[axis] - mesh.lower[axis]);
+  const double below = mesh.lower[axis] - grid.lower()[axis], above = grid.upper()[axis] - mesh.upper[axis];
+  if (below < -margin || above < -margin)
+    throw InputError(
+        fmt::format("bulk_grid: from {} to {} m along {}, but the fluid mesh goes from {} to {} m: the bulk "
+                    "grid must cover it",
+                    grid.lower()[axis], grid.upper()[axis], "xyz"[axis], mesh.lower[axis], mesh.upper[axis]));
+  if (grid.periodic()[axis] && (below > margin || above > margin))
+    throw InputError(fmt::format(
+        "bulk_grid: from {} to {} m along {}, where the particles' box is periodic, but the fluid mesh goes "
+        "from {} to {} m: the two must be the same",
+        grid.lower()[axis], grid.upper()[axis], "xyz"[axis], mesh.lower[axis], mesh.upper[axis]));
+}
+
+void require_same_kind(int axis, bool periodic, const Ends& ends) {
+  const char name = "xyz"[axis];
+  if (ends.cyclic > 0 && ends.cyclic < (1 - tolerance) * ends.area)
+    throw InputError(
+        fmt::format("only a part of the fluid mesh's ends along {} is cyclic: it must be all or none", name));
+  if (periodic && ends.cyclic == 0)
+    throw InputError(fmt::format(
+        "foam_side and dem_side do not agree: along {0} the particles' box is periodic (LIGGGHTS: boundary "
+        "with p in place {1}), but the fluid mesh has no cyclic patches at its ends along {0}. Give the mesh "
+        "a "
+        "pair of cyclic patches there, or the script a box that ends (boundary f)",
+        name, axis + 1));
+  if (!periodic && ends.cyclic > 0)
+    throw InputError(fmt::format(
+        "foam_side and dem_side do not agree: along {0} the fluid mesh is cyclic, but the particles' box is "
+        "not periodic. Write p in place {1} of the script's boundary command, or give the mesh other patches "
+        "at its ends along {0}",
+        name, axis + 1));
+}
+
+}  // namespace
+
+void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
+  const std::array<Ends, 3> ends = find_ends(mesh);
+  const MeshBox box = mesh_box(mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    require_cover(grid, box, axis);
+    const bool solved = mesh.geometricD()[axis] == 1;
+    if (solved) require_same_kind(axis, grid.periodic()[axis], ends[axis]);
+  }
+}
+
+}  // namespace demvof
