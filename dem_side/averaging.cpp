@@ -14,7 +14,7 @@ namespace {
 struct CellSample {
   double fluid = 0;  // 1 with fluid
   Vec3 velocity, pressure_gradient;
-  double density = 0, viscosity = 0;
+  double density = 0, viscosity = 0, void_fraction = 0;
   Vec3 left_over_rate;  // M / sum of w beta, m
 };
 
@@ -82,7 +82,9 @@ std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owne
     const BulkFluid& fluid = owned.values[i];
     CellSample& sample = offered.values[i];
     if (fluid.density > 0)
-      sample = {1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, {}};
+      sample = {
+          1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, fluid.void_fraction,
+          {}};
 
     const auto& cells = deposited_.cells;
     const auto found = std::lower_bound(cells.begin(), cells.end(), owned.cells[i]);
@@ -107,7 +109,8 @@ std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owne
                          mean.pressure_gradient / mean.fluid,
                          mean.density / mean.fluid,
                          mean.viscosity / mean.fluid,
-                         {}};
+                         {},
+                         mean.void_fraction / mean.fluid};
     at_particles[i].left_over_rate = mean.left_over_rate;
   }
   return at_particles;

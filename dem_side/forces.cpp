@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "coupler/closures/drag.hpp"
+#include "coupler/config/enum_names.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
@@ -18,13 +19,21 @@ CarriedFluid& carried_by(double* const* rows, int i) {
   return *reinterpret_cast<CarriedFluid*>(rows[i]);
 }
 
-struct NoDrag {
-  double operator()(double, double, double, double) const { return 0; }
-};
-struct SchillerNaumann {
-  double operator()(double diameter, double density, double viscosity, double slip) const {
-    return schiller_naumann(diameter, density, viscosity, slip);
+// A law as the particle loop has it: inlined, chosen once.
+using DragFunction = double(double diameter, double density, double viscosity, double slip, double eps);
+template <DragFunction* law>
+struct DragClosure {
+  DragRange range;
+  double factor(const CarriedFluid& fluid, double diameter, double slip, ClosureCount& count) const {
+    const double eps = fluid.void_fraction;
+    const double reynolds = superficial_reynolds(diameter, fluid.density, fluid.viscosity, slip, eps);
+    ++count.evaluations;
+    count.outside += !range.contains(reynolds, eps);
+    return law(diameter, fluid.density, fluid.viscosity, slip, eps);
   }
+};
+struct NoDrag {
+  double factor(const CarriedFluid&, double, double, ClosureCount&) const { return 0; }
 };
 
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
@@ -46,11 +55,11 @@ void store(double* components, const Vec3& vector) {
 }  // namespace
 
 FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters)
-    : dem_(dem), pressure_gradient_(parameters.pressure_gradient) {
+    : dem_(dem), drag_(parameters.drag), pressure_gradient_(parameters.pressure_gradient) {
   dem_.add_particle_rows(rows_name, row_width<CarriedFluid>());
   const auto attach = [this](auto drag) {
-    dem_.attach([this](const ParticleArrays& particles, double* const* external) {
-      add_forces<decltype(drag)>(particles, external);
+    dem_.attach([this, drag](const ParticleArrays& particles, double* const* external) {
+      add_forces(drag, particles, external);
     });
   };
   switch (parameters.drag) {
@@ -58,7 +67,22 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters)
       attach(NoDrag{});
       break;
     case DragLaw::schiller_naumann:
-      attach(SchillerNaumann{});
+      attach(DragClosure<schiller_naumann>{schiller_naumann_range});
+      break;
+    case DragLaw::gidaspow:
+      attach(DragClosure<gidaspow>{gidaspow_range});
+      break;
+    case DragLaw::di_felice:
+      attach(DragClosure<di_felice>{di_felice_range});
+      break;
+    case DragLaw::koch_hill:
+      attach(DragClosure<koch_hill>{koch_hill_range});
+      break;
+    case DragLaw::beetstra:
+      attach(DragClosure<beetstra>{beetstra_range});
+      break;
+    case DragLaw::rong:
+      attach(DragClosure<rong>{rong_range});
       break;
   }
 }
@@ -78,6 +102,7 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
     carried.velocity = here.velocity;
     carried.density = here.density;
     carried.viscosity = here.viscosity;
+    carried.void_fraction = here.void_fraction;
     if (pressure_gradient_)
       carried.pressure_force = -sphere_volume(particles.radius[i]) * here.pressure_gradient;
     carried.left_over_force = beta / window * here.left_over_rate;
@@ -86,15 +111,15 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
   window_ = window;
   steps_ = 0;
   force_sums_ = {};
+  drag_count_ = {};
 }
 
 template <class Drag>
-void FluidForces::add_forces(const ParticleArrays& particles, double* const* external) {
+void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
   if (window_ == 0) {  // Dem::set_up(): the forces before the first step, without fluid
     for (int i = 0; i < particles.count; ++i) store(external[i], {});
     return;
   }
-  const Drag drag_law;
   const double step = dem_.time_step();
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
@@ -114,7 +139,7 @@ void FluidForces::add_forces(const ParticleArrays& particles, double* const* ext
     if (fluid.density == 0) continue;
 
     const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
-    const double beta = drag_law(2 * particles.radius[i], fluid.density, fluid.viscosity, norm(slip));
+    const double beta = drag_law.factor(fluid, 2 * particles.radius[i], norm(slip), drag_count_);
     const Vec3 steady = fluid.pressure_force + fluid.left_over_force;
     const Vec3 drag = moves ? implicit_drag(beta, slip, contact + weight + steady, mass, step) : beta * slip;
     fluid.drag_factor_sum += beta;
@@ -153,6 +178,12 @@ std::vector<BulkParticles> FluidForces::contributions() const {
 
 const CarriedFluid& FluidForces::carried(int i) const {
   return carried_by(dem_.particle_rows(rows_name), i);
+}
+
+std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const {
+  std::vector<std::pair<std::string, ClosureCount>> closures;
+  if (drag_ != DragLaw::none) closures.emplace_back(name_of(drag_), drag_count_);
+  return closures;
 }
 
 WindowImpulses FluidForces::impulses() const {

@@ -17,6 +17,8 @@
 // therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
 // drag + pressure + left-over - held + contact + gravity, add up to its change to round-off.
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/config/parameters.hpp"
@@ -27,11 +29,12 @@ namespace demvof {
 
 /// The bulk fluid where a particle is, at the start of a window.
 struct FluidAtParticle {
-  Vec3 velocity;           // u, m/s
-  Vec3 pressure_gradient;  // Pa/m
-  double density = 0;      // rho, kg/m3; 0: there is no fluid here
-  double viscosity = 0;    // mu, Pa s
-  Vec3 left_over_rate;     // left-over impulse per drag factor, m
+  Vec3 velocity;             // u, m/s
+  Vec3 pressure_gradient;    // Pa/m
+  double density = 0;        // rho, kg/m3; 0: there is no fluid here
+  double viscosity = 0;      // mu, Pa s
+  Vec3 left_over_rate;       // left-over impulse per drag factor, m
+  double void_fraction = 1;  // eps, -
 };
 
 /// What a particle carries through a window, from rank to rank: what it feels and what it received.
@@ -40,6 +43,7 @@ struct CarriedFluid {
   Vec3 velocity;               // u, m/s
   double density = 0;          // rho, kg/m3; 0: no fluid
   double viscosity = 0;        // mu, Pa s
+  double void_fraction = 1;    // eps, -
   Vec3 pressure_force;         // N
   Vec3 left_over_force;        // N
   Vec3 drag_impulse;           // received in this window, N s
@@ -52,6 +56,11 @@ struct WindowImpulses {
   Vec3 drag, pressure, left_over;  // on all particles
   Vec3 held;                       // the part of these that went to particles which no force moves
   Vec3 contact, gravity;           // on the particles that forces move
+};
+
+/// How often a closure was evaluated, and how often outside the range it was fitted for.
+struct ClosureCount {
+  double evaluations = 0, outside = 0;
 };
 
 class FluidForces {
@@ -70,6 +79,8 @@ class FluidForces {
   /// State of local particle i.
   const CarriedFluid& carried(int i) const;
   WindowImpulses impulses() const;
+  /// The closures in use by name, with their counts in this window on this rank.
+  std::vector<std::pair<std::string, ClosureCount>> closures() const;
   /// Local particles that feel no fluid: new ones, and those where there is none.
   long waiting_for_fluid() const;
   /// DEM steps done in this window.
@@ -77,14 +88,16 @@ class FluidForces {
 
  private:
   template <class Drag>
-  void add_forces(const ParticleArrays& particles, double* const* external);
+  void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
   double mean_drag_factor(const CarriedFluid& fluid) const;
 
   Dem& dem_;
+  DragLaw drag_;
   bool pressure_gradient_;
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window
+  ClosureCount drag_count_;
 };
 
 }  // namespace demvof

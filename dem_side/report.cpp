@@ -36,6 +36,16 @@ nlohmann::json array(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
+nlohmann::json closures(const FluidForces& forces, MPI_Comm world) {
+  nlohmann::json counts = nlohmann::json::object();
+  for (auto& [name, count] : forces.closures()) {
+    ClosureCount sum = count;
+    reduce(&sum.evaluations, sizeof(sum), MPI_SUM, world);
+    counts[name] = {{"evaluations", std::lround(sum.evaluations)}, {"outside", std::lround(sum.outside)}};
+  }
+  return counts;
+}
+
 }  // namespace
 
 Vec3 half_step_momentum(const Dem& dem) {
@@ -115,6 +125,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
       {"contact_impulse", array(sums.impulses.contact)},
       {"gravity_impulse", array(sums.impulses.gravity)},
       {"held_impulse", array(sums.impulses.held)},
+      {"closures", closures(forces, dem_.world())},
       {"relieved_cells", averaging.relief().cells},
       {"relieved_volume", averaging.relief().volume},
       {"unplaced_volume", averaging.relief().not_placed},

@@ -40,6 +40,8 @@ class Report {
   ///     drag_impulse + pressure_impulse + left_over_given - held_impulse + contact_impulse + gravity_impulse
   ///   drag_impulse_bulk              the same as drag_impulse unless particles were lost, N s
   ///   left_over_unplaced             left-over impulse of cells without drag, given to nobody, N s
+  ///   closures                       by name: evaluations in this window, and how many of them were outside
+  ///                                  the range the closure was fitted for
   ///   relieved_cells, relieved_volume, unplaced_volume    of the solid limit (limit_solid.hpp)
   ///   steps                          DEM steps of this window
   ///   seconds                        dem, averaging, exchange, waiting: of rank 0, since the start

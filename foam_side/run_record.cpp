@@ -24,6 +24,14 @@ double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
+void count_closure(RunResults& results, const std::string& name, const json& count) {
+  auto& uses = results.closures;
+  auto use = std::find_if(uses.begin(), uses.end(), [&](const auto& other) { return other.name == name; });
+  if (use == uses.end()) use = uses.insert(use, {name, 0, 0});
+  use->evaluations += count.at("evaluations").get<long>();
+  use->outside += count.at("outside").get<long>();
+}
+
 Vec3 vec3(const json& array) {
   return {array.at(0), array.at(1), array.at(2)};
 }
@@ -156,6 +164,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       results.particles.left = p.at("left");
       results.particles.lost = p.at("lost");
       results.steps.particles += p.at("steps").get<long>();
+      for (const auto& [name, count] : p.at("closures").items()) count_closure(results, name, count);
       limits_.relieved_cells += p.at("relieved_cells").get<long>();
       limits_.relieved_volume += p.at("relieved_volume").get<double>();
       limits_.unplaced_volume = std::max(limits_.unplaced_volume, p.at("unplaced_volume").get<double>());
@@ -237,6 +246,11 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   if (limits_.unplaced_left_over > 0)
     lines.push_back(fmt::format("left-over impulse of {:.3g} N s found no particle to receive it",
                                 limits_.unplaced_left_over));
+  for (const auto& [name, evaluations, outside] : shared_->results.closures)
+    if (outside > 0)
+      lines.push_back(
+          fmt::format("{} was evaluated outside the range it was fitted for in {} of {} cases ({:.3g} %)",
+                      name, outside, evaluations, 100.0 * outside / evaluations));
   return lines;
 }
 

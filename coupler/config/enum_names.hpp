@@ -38,7 +38,12 @@ inline const EnumNames<PhaseInterchange> enum_names<PhaseInterchange> = {{PhaseI
                                                                          {PhaseInterchange::none, "none"}};
 template <>
 inline const EnumNames<DragLaw> enum_names<DragLaw> = {{DragLaw::none, "none"},
-                                                       {DragLaw::schiller_naumann, "schiller_naumann"}};
+                                                       {DragLaw::schiller_naumann, "schiller_naumann"},
+                                                       {DragLaw::gidaspow, "gidaspow"},
+                                                       {DragLaw::di_felice, "di_felice"},
+                                                       {DragLaw::koch_hill, "koch_hill"},
+                                                       {DragLaw::beetstra, "beetstra"},
+                                                       {DragLaw::rong, "rong"}};
 template <>
 inline const EnumNames<Switch> enum_names<Switch> = {
     {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};

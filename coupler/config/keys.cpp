@@ -207,7 +207,9 @@ std::vector<Key> make_keys() {
       key("coupling.mapping.to_bulk", one_of<Mapping>(), "From the fine mesh to the bulk grid.",
           DEMVOF_AT(coupling.mapping.to_bulk)),
 
-      key("forces.drag", one_of<DragLaw>(), "Drag law, written {drag: law}.", DEMVOF_AT(forces.drag)),
+      key("forces.drag", one_of<DragLaw>(),
+          "Drag law, written {drag: law}; docs/theory.md says for which range each was fitted.",
+          DEMVOF_AT(forces.drag)),
       key("forces.pressure_gradient", flag(),
           "-V grad p on each particle (buoyancy included), written as the bare word.",
           DEMVOF_AT(forces.pressure_gradient)),

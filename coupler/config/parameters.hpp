@@ -61,7 +61,7 @@ struct CouplingParameters {
   double time_out = 600;  // s without a word from the partner before a side gives up
 };
 
-enum class DragLaw { none, schiller_naumann };
+enum class DragLaw { none, schiller_naumann, gidaspow, di_felice, koch_hill, beetstra, rong };
 
 struct ForceParameters {
   DragLaw drag = DragLaw::schiller_naumann;

@@ -78,6 +78,9 @@ std::string results_json(const RunResults& r) {
                           {"momentum", r.conservation.momentum},
                           {"solid_volume", r.conservation.solid_volume},
                           {"liquid_volume", r.conservation.liquid_volume}};
+  json["closures"] = Json::object();
+  for (const auto& [closure, evaluations, outside] : r.closures)
+    json["closures"][closure] = {{"evaluations", evaluations}, {"outside_range", outside}};
   json["scene"] = scene(r.scene);
   json["quantities"] = Json::object();
   for (const auto& [quantity, value] : r.quantities) json["quantities"][quantity] = value;

@@ -63,6 +63,12 @@ struct RunResults {
     double liquid_volume = 0;  // drift against the start, worst window
   } conservation;              // relative, -
 
+  struct ClosureUse {
+    std::string name;
+    long evaluations = 0, outside = 0;  // outside the range the closure was fitted for
+  };
+  std::vector<ClosureUse> closures;  // over the run, all ranks
+
   std::vector<Decision> scene;
   std::vector<std::pair<std::string, double>> quantities;  // names of history.csv, values at the end
   std::vector<std::string> warnings;                       // clamps and limiters that acted, with counts

@@ -163,6 +163,29 @@ TEST(DemForces, AccountForEveryImpulse) {
   EXPECT_TRUE(touched);
 }
 
+// A law that knows the void fraction gets the sampled one; what lies outside its range is counted.
+TEST(DemForces, UseTheVoidFractionInTheDragLaw) {
+  Scene scene("void_fraction", empty_box(1e-5) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);
+  ForceParameters parameters;
+  parameters.drag = demvof::DragLaw::gidaspow;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  FluidAtParticle fluid = syrup(1e-3, {0.1, 0, 0});
+  for (const double eps : {0.5, 0.2}) {
+    fluid.void_fraction = eps;
+    window(*scene.dem, forces, fluid, 10);
+    const double expected = bead_mass / 1e-3 * 150 * (1 - eps) / (18 * eps);  // Ergun's bed for Re -> 0
+    for (const auto& row : forces.contributions()) EXPECT_NEAR(row.drag_factor / expected, 1, 1e-12);
+    const auto closures = forces.closures();
+    ASSERT_EQ(closures.size(), 1u);
+    EXPECT_EQ(closures[0].first, "gidaspow");
+    double counts[2] = {closures[0].second.evaluations, closures[0].second.outside};
+    MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, scene.dem->world());
+    EXPECT_EQ(counts[0], 10);
+    EXPECT_EQ(counts[1], eps < 0.36 ? 10 : 0);
+  }
+}
+
 // The impulse of the last window that is still owed arrives in full: rate times beta of that window.
 TEST(DemForces, HandOverTheLeftOverImpulse) {
   Scene scene("left_over", empty_box(1e-5) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);

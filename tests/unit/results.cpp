@@ -58,6 +58,7 @@ TEST(Results, HasEveryKeyThatIsPromised) {
                           "/conservation/momentum",
                           "/conservation/solid_volume",
                           "/conservation/liquid_volume",
+                          "/closures",
                           "/scene",
                           "/quantities",
                           "/warnings"})
@@ -75,6 +76,7 @@ TEST(Results, SaysWhatTheRunSaid) {
   results.particles.lost = 3;
   results.cells.fine_max = 511104;
   results.exchanged.bytes = std::int64_t{5} << 40;
+  results.closures = {{"gidaspow", 1000, 7}};
   results.scene = {{"surface tension", true, "the coefficient is 0.072 N/m"}};
   results.quantities = {{"liquid_front", 0.1875}};
   const Json json = parsed(results);
