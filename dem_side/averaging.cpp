@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "coupler/config/read_case.hpp"
 #include "coupler/link/mpi_check.hpp"
 
 namespace demvof {
@@ -37,32 +38,49 @@ double* rows(std::vector<T>& values) {
 
 }  // namespace
 
+AveragingParameters with_bandwidth(AveragingParameters parameters, double largest_diameter) {
+  if (parameters.kernel != Kernel::diffusion || parameters.bandwidth > 0) return parameters;
+  if (largest_diameter <= 0)
+    throw InputError(
+        "coupling.averaging.bandwidth: 0 stands for six of the largest particle diameters at the start, but "
+        "there "
+        "are no particles then; give a length in m");
+  parameters.bandwidth = 6 * largest_diameter;
+  return parameters;
+}
+
 Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                      const AveragingParameters& parameters)
-    : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {}
+    : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {
+  if (parameters_.kernel == Kernel::diffusion)
+    diffusion_.emplace(world_, grid_, partition_, parameters_.bandwidth);
+}
 
 void Averaging::set_open_shares(CellValues<double> open_share) {
   open_share_ = std::move(open_share);
   int partial = open_share_.cells.empty() ? 0 : 1;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &partial, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
   all_open_ = partial == 0;
+  if (diffusion_ && !all_open_) diffusion_->set_open_shares(open_share_);
 }
 
 const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& particles,
                                                     const std::vector<BulkParticles>& contributions) {
   std::vector<Vec3> positions(particles.count);
+  const std::vector<double> radii(particles.radius, particles.radius + particles.count);
   outside_ = 0;
   for (int i = 0; i < particles.count; ++i) {
     positions[i] = vec3(particles.position[i]);
     outside_ += beyond_a_wall(grid_, positions[i]);
   }
-  weights_ = kernel_weights(grid_, parameters_, positions, std::move(weights_));  // reuses its memory
+  weights_ = kernel_weights(grid_, parameters_, positions, radii, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
   if (!all_open_) count_open_shares(touched_->fetch_from_owners(open_share_, 1.0), weights_);
 
   std::vector<BulkParticles> touched(weights_.cells.size());
   demvof::deposit(weights_, rows(contributions), row_width<BulkParticles>(), rows(touched));
   deposited_ = touched_->sum_to_owners(touched);
+  if (diffusion_) deposited_ = diffusion_->spread(std::move(deposited_));
   relief_ =
       limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, open_share_, deposited_);
   return deposited_;
@@ -97,6 +115,7 @@ std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owne
   }
 
   assert(touched_);
+  if (diffusion_) offered = diffusion_->gather(std::move(offered));
   const std::vector<CellSample> cells = touched_->fetch_from_owners(offered, CellSample{});
   std::vector<CellSample> means(weights_.particles());
   demvof::sample(weights_, rows(cells), row_width<CellSample>(), rows(means));

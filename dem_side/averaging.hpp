@@ -9,6 +9,7 @@
 #include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/diffusion.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "coupler/transfer/limit_solid.hpp"
 #include "dem_side/forces.hpp"
@@ -16,10 +17,15 @@
 
 namespace demvof {
 
+/// Parameters in which the bandwidth is a length: 0 stands for six of the largest diameters at the start, m.
+/// Throws InputError when there is no particle yet to take it from.
+AveragingParameters with_bandwidth(AveragingParameters parameters, double largest_diameter);
+
 /// Particles to bulk grid at the end of a window, and the bulk fluid back to the particles at the
 /// start of the next, with the same weights: no particle moves in between.
 class Averaging {
  public:
+  /// parameters: with_bandwidth(). Collective.
   Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
             const AveragingParameters& parameters);
 
@@ -56,6 +62,7 @@ class Averaging {
   AveragingParameters parameters_;
   CellValues<double> open_share_;  // this rank's cells that are not all open
   bool all_open_ = true;           // on all ranks
+  std::optional<Diffusion> diffusion_;
   KernelWeights weights_;
   std::optional<TouchedCells> touched_;
   CellValues<BulkParticles> deposited_;

@@ -65,10 +65,11 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   FluidForces forces(dem, parameters.forces);
   dem.set_up();
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
+  const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
 
   run_stage().set("handshake");
   Link link(world, grid.cell_count(), coupling.time_out);
-  Averaging averaging(world.comm(), grid, link.mine(), coupling.averaging);
+  Averaging averaging(world.comm(), grid, link.mine(), averaged);
   averaging.deposit(dem.particles(), forces.contributions());
   link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
                  facts(dem, averaging, world));

@@ -26,8 +26,11 @@ inline const EnumNames<ExchangeScheme> enum_names<ExchangeScheme> = {
     {ExchangeScheme::semi_implicit, "semi_implicit"},
     {ExchangeScheme::conservative_implicit, "conservative_implicit"}};
 template <>
-inline const EnumNames<Kernel> enum_names<Kernel> = {
-    {Kernel::centre, "centre"}, {Kernel::linear, "linear"}, {Kernel::gaussian, "gaussian"}};
+inline const EnumNames<Kernel> enum_names<Kernel> = {{Kernel::centre, "centre"},
+                                                     {Kernel::volume, "volume"},
+                                                     {Kernel::linear, "linear"},
+                                                     {Kernel::gaussian, "gaussian"},
+                                                     {Kernel::diffusion, "diffusion"}};
 template <>
 inline const EnumNames<Mapping> enum_names<Mapping> = {{Mapping::nearest, "nearest"},
                                                        {Mapping::conservative, "conservative"}};
@@ -44,6 +47,8 @@ inline const EnumNames<DragLaw> enum_names<DragLaw> = {{DragLaw::none, "none"},
                                                        {DragLaw::koch_hill, "koch_hill"},
                                                        {DragLaw::beetstra, "beetstra"},
                                                        {DragLaw::rong, "rong"}};
+template <>
+inline const EnumNames<OwnWake> enum_names<OwnWake> = {{OwnWake::none, "none"}, {OwnWake::oseen, "oseen"}};
 template <>
 inline const EnumNames<Switch> enum_names<Switch> = {
     {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};

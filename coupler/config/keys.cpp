@@ -198,6 +198,10 @@ std::vector<Key> make_keys() {
       key("coupling.averaging.width", at_least(0, number("m")),
           "Standard deviation of the gaussian kernel; 0: half a bulk cell.",
           DEMVOF_AT(coupling.averaging.width)),
+      key("coupling.averaging.bandwidth", at_least(0, number("m")),
+          "Bandwidth b of the diffusion kernel, sqrt(2) standard deviations; 0: six of the largest particle "
+          "diameters at the start.",
+          DEMVOF_AT(coupling.averaging.bandwidth)),
       key("coupling.averaging.maximum_solid_fraction", above(0, at_most(1, number("-"))),
           "Of a bulk cell; what is above moves to the neighbours, and is counted.",
           DEMVOF_AT(coupling.averaging.maximum_solid_fraction)),
@@ -213,6 +217,9 @@ std::vector<Key> make_keys() {
       key("forces.pressure_gradient", flag(),
           "-V grad p on each particle (buoyancy included), written as the bare word.",
           DEMVOF_AT(forces.pressure_gradient)),
+      key("forces.own_wake", one_of<OwnWake>(),
+          "Takes the particle's own wake out of the fluid velocity it feels, written {own_wake: oseen}.",
+          DEMVOF_AT(forces.own_wake)),
 
       key("scene.particles", one_of<Switch>(), "Particles; off: the run is made without them.",
           DEMVOF_AT(scene.particles)),

@@ -32,14 +32,15 @@ struct BulkGridParameters {
 
 enum class Schedule { staggered };
 enum class ExchangeScheme { explicit_drag, semi_implicit, conservative_implicit };  // YAML: explicit, ...
-enum class Kernel { centre, linear, gaussian };
+enum class Kernel { centre, volume, linear, gaussian, diffusion };
 enum class Mapping { nearest, conservative };
 enum class Sharing { volume, mass };
 enum class PhaseInterchange { porous, none };
 
 struct AveragingParameters {
   Kernel kernel = Kernel::gaussian;
-  double width = 0;  // standard deviation of the Gaussian, m; 0: half a bulk cell
+  double width = 0;      // standard deviation of the Gaussian, m; 0: half a bulk cell
+  double bandwidth = 0;  // b of the diffusion kernel, m; 0: six of the largest particle diameters
   double maximum_solid_fraction =
       0.74;  // of a bulk cell; what is above moves to the neighbours and is counted
 };
@@ -62,10 +63,12 @@ struct CouplingParameters {
 };
 
 enum class DragLaw { none, schiller_naumann, gidaspow, di_felice, koch_hill, beetstra, rong };
+enum class OwnWake { none, oseen };
 
 struct ForceParameters {
   DragLaw drag = DragLaw::schiller_naumann;
   bool pressure_gradient = true;
+  OwnWake own_wake = OwnWake::none;  // correction of the sampled velocity for the particle's own disturbance
 };
 
 /// For each decision of the scene plan: found from the scene (automatic), or forced.

@@ -2,51 +2,69 @@
 #include "coupler/transfer/axis_kernel.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace demvof {
 
-AxisKernel::AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis)
-    : kernel_(averaging.kernel),
-      lower_(grid.lower()[axis]),
+AxisCells::AxisCells(const BulkGrid& grid, int axis)
+    : lower_(grid.lower()[axis]),
       spacing_(grid.spacing()[axis]),
-      cells_(grid.cells()[axis]),
-      periodic_(grid.periodic()[axis]),
-      width_(averaging.width > 0 ? averaging.width / spacing_ : 0.5) {
-  reach_ = kernel_ == Kernel::gaussian ? gaussian_cut * width_ : kernel_ == Kernel::linear ? 0.5 : 0.0;
-}
+      count_(grid.cells()[axis]),
+      periodic_(grid.periodic()[axis]) {}
 
-double AxisKernel::cells_from_lower(double x) const {
+double AxisCells::place(double x) const {
   double s = (x - lower_) / spacing_;
-  if (periodic_) s -= cells_ * std::floor(s / cells_);
-  return s > 0 ? std::min<double>(s, cells_) : 0.0;  // in this order not-a-number is on the wall, too
+  if (periodic_) s -= count_ * std::floor(s / count_);
+  return s > 0 ? std::min<double>(s, count_) : 0.0;  // in this order not-a-number is on the wall, too
 }
 
-int AxisKernel::fold(int index) const {
-  const int period = periodic_ ? cells_ : 2 * cells_;
+int AxisCells::fold(int index) const {
+  const int period = periodic_ ? count_ : 2 * count_;
   const int m = (index % period + period) % period;
-  return m < cells_ ? m : period - 1 - m;
+  return m < count_ ? m : period - 1 - m;
 }
 
-void AxisKernel::reach(double x_min, double x_max, int& first, int& last) const {
-  const bool inside = x_min >= lower_ && x_max < lower_ + cells_ * spacing_;
-  const double low = cells_from_lower(x_min) - reach_, high = cells_from_lower(x_max) + reach_;
-  const bool wraps = periodic_ && !(inside && low >= 0 && high < cells_);
-  // One cell more on either side: where a mirrored share ends is known to round-off only.
+void AxisCells::reach(double x_min, double x_max, double half_width, int& first, int& last) const {
+  const bool inside = x_min >= lower_ && x_max < lower_ + count_ * spacing_;
+  const double low = place(x_min) - half_width, high = place(x_max) + half_width;
+  const bool wraps = periodic_ && !(inside && low >= 0 && high < count_);
+  // What is mirrored at a wall stays in between. One cell more on either side: where a mirrored share ends
+  // is known to round-off only.
   first = wraps ? 0 : static_cast<int>(std::max(low - 1, 0.0));
-  last = wraps ? cells_ - 1 : static_cast<int>(std::min<double>(high + 1, cells_ - 1));
+  last = wraps ? count_ - 1 : static_cast<int>(std::min<double>(high + 1, count_ - 1));
+}
+
+AxisKernel::AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis)
+    : cells_(grid, axis),
+      kernel_(averaging.kernel),
+      width_(averaging.width > 0 ? averaging.width / cells_.spacing() : 0.5) {
+  switch (kernel_) {
+    case Kernel::gaussian:
+      half_width_ = gaussian_cut * width_;
+      break;
+    case Kernel::linear:
+    case Kernel::diffusion:
+      half_width_ = 0.5;
+      break;
+    case Kernel::centre:
+    case Kernel::volume:  // sphere_cells.hpp
+      half_width_ = 0;
+      break;
+  }
 }
 
 void AxisKernel::shares(double x, AxisShares& out) const {
   out.index.clear();
   out.share.clear();
-  const double s = cells_from_lower(x);
-  const int last = static_cast<int>(std::floor(s + reach_));
-  const int first = kernel_ == Kernel::linear ? last - 1 : static_cast<int>(std::floor(s - reach_));
-  const bool folds = first < 0 || last >= cells_;
+  const double s = cells_.place(x);
+  const int last = static_cast<int>(std::floor(s + half_width_));
+  const bool hat = kernel_ == Kernel::linear || kernel_ == Kernel::diffusion;
+  const int first = hat ? last - 1 : static_cast<int>(std::floor(s - half_width_));
+  const bool folds = !cells_.inside(first) || !cells_.inside(last);
   const auto add = [&](int index, double share) {
     if (folds) {
-      index = fold(index);
+      index = cells_.fold(index);
       const auto known = std::find(out.index.begin(), out.index.end(), index);
       if (known != out.index.end()) {
         out.share[known - out.index.begin()] += share;
@@ -61,8 +79,9 @@ void AxisKernel::shares(double x, AxisShares& out) const {
     case Kernel::centre:
       add(first, 1.0);
       break;
-    case Kernel::linear: {
-      const double upper_share = s + reach_ - last;
+    case Kernel::linear:
+    case Kernel::diffusion: {
+      const double upper_share = s + half_width_ - last;
       add(first, 1.0 - upper_share);
       add(last, upper_share);
       break;
@@ -78,6 +97,9 @@ void AxisKernel::shares(double x, AxisShares& out) const {
       }
       break;
     }
+    case Kernel::volume:
+      assert(!"the volume kernel is no product of three");
+      break;
   }
 }
 

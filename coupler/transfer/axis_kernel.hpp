@@ -12,41 +12,55 @@ namespace demvof {
 /// its second moment is then 2.7 % below width^2.
 constexpr double gaussian_cut = 3.0;
 
+/// The cells of the bulk grid along one axis; lengths are in cells, counted from the lower end.
+///
+/// What leaves through a wall is mirrored at the wall: an even spread of particles up to the wall
+/// stays even. Periodic directions wrap.
+class AxisCells {
+ public:
+  AxisCells(const BulkGrid& grid, int axis);
+
+  /// x: coordinate, m; beyond a wall it counts as on the wall.
+  double place(double x) const;
+  /// The cell inside the grid that stands for a cell index beyond its ends.
+  int fold(int index) const;
+  bool inside(int index) const { return index >= 0 && index < count_; }
+  /// Cells first..last hold all that particles with coordinates in [x_min, x_max] reach with the half width.
+  void reach(double x_min, double x_max, double half_width, int& first, int& last) const;
+  double spacing() const { return spacing_; }  // m
+
+ private:
+  double lower_, spacing_;
+  int count_;
+  bool periodic_;
+};
+
 /// Shares of a particle in the cells of one direction; shares add up to 1.
 struct AxisShares {
   std::vector<int> index;     // cell index along the axis, each once
   std::vector<double> share;  // -
 };
 
-/// An averaging kernel along one axis of the bulk grid; the kernels are products of three of these.
+/// An averaging kernel along one axis of the bulk grid; these kernels are products of three of them.
 ///
 ///   centre    share 1 in the cell of the particle
-///   linear    hat function through the two nearest cell centres
+///   linear    hat function through the two nearest cell centres; what `diffusion` diffuses, too
 ///   gaussian  integral over the cell of exp(-(x - x_p)^2 / (2 width^2)), cut at gaussian_cut widths.
 ///             The cut moves with the particle, so that a cell is entered and left with share 0:
 ///             the shares are continuous in the particle's position, exactly.
-///
-/// What leaves through a wall is mirrored at the wall: an even spread of particles up to the wall
-/// stays even. Periodic directions wrap.
 class AxisKernel {
  public:
   AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis);
 
-  /// x: coordinate, m; beyond a wall it counts as on the wall.
   void shares(double x, AxisShares& shares) const;
-  /// Cells first..last hold all that particles with coordinates in [x_min, x_max] can reach.
-  void reach(double x_min, double x_max, int& first, int& last) const;
+  /// Farthest distance between a particle and a cell it touches, in cells.
+  double half_width() const { return half_width_; }
 
  private:
-  double cells_from_lower(double x) const;
-  int fold(int index) const;
-
+  AxisCells cells_;
   Kernel kernel_;
-  double lower_, spacing_;
-  int cells_;
-  bool periodic_;
   double width_;  // of the Gaussian, in cells
-  double reach_;  // farthest distance between particle and a touched cell, in cells
+  double half_width_;
 };
 
 }  // namespace demvof

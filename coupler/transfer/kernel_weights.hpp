@@ -19,9 +19,12 @@ struct KernelWeights {
 };
 
 /// Weights of the given particles. kernel width as in AveragingParameters; positions beyond a wall count as
-/// on the wall. storage: weights no longer needed, moved in so that their memory is used again.
+/// on the wall. radii: m, one per particle, of which only the volume kernel takes notice. The diffusion
+/// kernel's weights are those before diffusion (diffusion.hpp). storage: weights no longer needed, moved in
+/// so that their memory is used again.
 KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging,
-                             const std::vector<Vec3>& positions, KernelWeights storage = {});
+                             const std::vector<Vec3>& positions, const std::vector<double>& radii,
+                             KernelWeights storage = {});
 
 /// Makes cells count by their share that is open to the fluid (per touched cell, 0 to 1):
 ///   w_ic <- w_ic share_c / sum over c of w_ic share_c

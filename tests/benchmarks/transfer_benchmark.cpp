@@ -17,6 +17,7 @@ namespace {
 
 const BulkGrid grid({0, 0, 0}, {0.2, 0.1, 0.3}, {20, 10, 30});
 const int particle_count = 3900;
+const std::vector<double> radii(particle_count, 1.35e-3);
 const int row = row_width<BulkParticles>();
 
 std::vector<Vec3> bed() {  // lower 40 % of the box
@@ -37,23 +38,23 @@ AveragingParameters kernel(const benchmark::State& state) {
 void make_weights(benchmark::State& state) {
   const auto positions = bed();
   KernelWeights weights;
-  for (auto _ : state) weights = kernel_weights(grid, kernel(state), positions, std::move(weights));
+  for (auto _ : state) weights = kernel_weights(grid, kernel(state), positions, radii, std::move(weights));
 }
-BENCHMARK(make_weights)->ArgName("kernel")->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(make_weights)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 void deposit_rows(benchmark::State& state) {
-  const KernelWeights weights = kernel_weights(grid, kernel(state), bed());
+  const KernelWeights weights = kernel_weights(grid, kernel(state), bed(), radii);
   std::vector<double> rows(particle_count * row, 1.0), cell_rows(weights.cells.size() * row);
   for (auto _ : state) deposit(weights, rows.data(), row, cell_rows.data());
 }
-BENCHMARK(deposit_rows)->ArgName("kernel")->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(deposit_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 void sample_rows(benchmark::State& state) {
-  const KernelWeights weights = kernel_weights(grid, kernel(state), bed());
+  const KernelWeights weights = kernel_weights(grid, kernel(state), bed(), radii);
   std::vector<double> rows(particle_count * row), cell_rows(weights.cells.size() * row, 1.0);
   for (auto _ : state) sample(weights, cell_rows.data(), row, rows.data());
 }
-BENCHMARK(sample_rows)->ArgName("kernel")->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(sample_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 /// Fine mesh with range(0) cells per bulk cell edge; range(1): turned by 0.3 rad about the box's centre.
 FineMesh mesh(const benchmark::State& state) {

@@ -13,7 +13,12 @@
 namespace demvof {
 namespace {
 
-const Kernel all_kernels[] = {Kernel::centre, Kernel::linear, Kernel::gaussian};
+const Kernel all_kernels[] = {Kernel::centre, Kernel::volume, Kernel::linear, Kernel::gaussian,
+                              Kernel::diffusion};
+
+std::vector<double> radii(const std::vector<Vec3>& points, double radius) {
+  return std::vector<double>(points.size(), radius);
+}
 
 AveragingParameters averaging(Kernel kernel, double width = 0) {
   AveragingParameters parameters;
@@ -23,8 +28,9 @@ AveragingParameters averaging(Kernel kernel, double width = 0) {
 }
 
 /// Shares of one particle by cell.
-std::map<CellId, double> shares(const BulkGrid& grid, const AveragingParameters& parameters, Vec3 position) {
-  const KernelWeights weights = kernel_weights(grid, parameters, {position});
+std::map<CellId, double> shares(const BulkGrid& grid, const AveragingParameters& parameters, Vec3 position,
+                                double radius = 0.01) {
+  const KernelWeights weights = kernel_weights(grid, parameters, {position}, {radius});
   std::map<CellId, double> result;
   for (int e = weights.first[0]; e < weights.first[1]; ++e)
     result[weights.cells[weights.slot[e]]] += weights.weight[e];
@@ -50,7 +56,8 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
         for (const double width : {0.0, 1e-4, 0.013, 0.02, 0.3}) {  // 0.02: reaches whole cells far
           const BulkGrid grid({-0.1, 0, 1}, {0.1, 0.1, 1.3}, cells, {periodic, false, periodic});
           const std::vector<Vec3> points = awkward_points(grid);
-          const KernelWeights weights = kernel_weights(grid, averaging(kernel, width), points);
+          const KernelWeights weights = kernel_weights(grid, averaging(kernel, width), points,
+                                                       radii(points, std::min(0.04, width + 0.003)));
           ASSERT_EQ(weights.particles(), int(points.size()));
           EXPECT_TRUE(std::is_sorted(weights.cells.begin(), weights.cells.end()));
           EXPECT_EQ(std::adjacent_find(weights.cells.begin(), weights.cells.end()), weights.cells.end());
@@ -70,7 +77,7 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
 }
 
 TEST(KernelWeights, NoParticlesNoCells) {
-  const KernelWeights weights = kernel_weights(BulkGrid({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), {}, {});
+  const KernelWeights weights = kernel_weights(BulkGrid({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), {}, {}, {});
   EXPECT_EQ(weights.particles(), 0);
   EXPECT_TRUE(weights.cells.empty());
 }
@@ -78,8 +85,8 @@ TEST(KernelWeights, NoParticlesNoCells) {
 TEST(KernelWeights, CellsCountByTheirOpenShare) {
   const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
   // Halfway between cells 1 and 2; in cell 3; in cell 0, of which nothing is open.
-  KernelWeights weights =
-      kernel_weights(grid, averaging(Kernel::linear), {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}});
+  KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear),
+                                         {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}}, {1, 1, 1});
   std::vector<double> share;
   for (const CellId cell : weights.cells)
     share.push_back(std::map<CellId, double>{{0, 0}, {1, 0.25}, {2, 1}, {3, 1}}[cell]);
@@ -125,7 +132,7 @@ TEST(KernelWeights, LinearKernelSamplesLinearFieldsExactly) {
     };
     points.push_back({in(0.125, 1.875), in(-0.9, -0.1), in(3 + 1. / 6, 6 - 1. / 6)});
   }
-  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points);
+  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points, radii(points, 1));
   std::vector<double> cell_values, values(points.size());
   for (const CellId cell : weights.cells) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
   sample(weights, cell_values.data(), 1, values.data());
@@ -215,7 +222,7 @@ TEST(KernelWeights, AnEvenSpreadUpToTheWallStaysEven) {
   for (int i = 0; i < 1000; ++i) points.push_back({(i + 0.5) / 1000, 0.5, 0.5});
   const std::vector<double> ones(points.size(), 1.0);
   for (const Kernel kernel : all_kernels) {
-    const KernelWeights weights = kernel_weights(grid, averaging(kernel, 0.13), points);
+    const KernelWeights weights = kernel_weights(grid, averaging(kernel, 0.13), points, radii(points, 0.31));
     std::vector<double> sums(weights.cells.size());
     deposit(weights, ones.data(), 1, sums.data());
     ASSERT_EQ(sums.size(), 5u);
@@ -230,7 +237,7 @@ TEST(KernelWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
   const std::vector<Vec3> points = awkward_points(grid);
   const int width = 5;
   for (const Kernel kernel : all_kernels) {
-    const KernelWeights weights = kernel_weights(grid, averaging(kernel), points);
+    const KernelWeights weights = kernel_weights(grid, averaging(kernel), points, radii(points, 0.13));
     std::vector<double> a(points.size() * width), b(weights.cells.size() * width), deposited(b.size()),
         sampled(a.size());
     for (double& value : a) value = uniform(random);

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/transfer/diffusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "coupler/link/mpi_check.hpp"
+
+namespace demvof {
+
+RowDiffusion::RowDiffusion(int cells, double strength, bool periodic) : cells_(cells), periodic_(periodic) {
+  const double s = 0.5 / strength, q = s + std::sqrt(s * (s + 2));
+  lambda_ = 1 / (1 + q);
+  one_minus_lambda_ = q / (1 + q);
+  const double log_row = -cells * std::log1p(q);
+  lambda_row_ = std::exp(log_row);
+  beyond_ = -1 / std::expm1(periodic ? log_row : 2 * log_row);
+}
+
+void RowDiffusion::step(double* row, int width) const {
+  const auto cell = [row, width](int i) { return row + std::size_t(i) * width; };
+  // The sum that comes in from beyond the lower end: of the row itself again and again, or of its mirror
+  // images, the nearest of which begins with its first cell.
+  std::vector<double> sum(width, 0.0), mirrored(width, 0.0);
+  for (int i = 0; i < cells_; ++i)
+    for (int m = 0; m < width; ++m) sum[m] = cell(i)[m] + lambda_ * sum[m];
+  if (!periodic_) {
+    for (int i = cells_; i-- > 0;)
+      for (int m = 0; m < width; ++m) mirrored[m] = cell(i)[m] + lambda_ * mirrored[m];
+    for (int m = 0; m < width; ++m) sum[m] = mirrored[m] + lambda_row_ * sum[m];
+  }
+  for (double& value : sum) value *= beyond_;
+  for (int i = 0; i < cells_; ++i)
+    for (int m = 0; m < width; ++m) sum[m] = cell(i)[m] += lambda_ * sum[m];
+
+  // Back again. At a wall the cell beyond the last one is its image.
+  if (periodic_) {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    for (int i = cells_; i-- > 0;)
+      for (int m = 0; m < width; ++m) sum[m] = cell(i)[m] + lambda_ * sum[m];
+    for (double& value : sum) value *= beyond_;
+  } else {
+    for (double& value : sum) value /= one_minus_lambda_;
+  }
+  const double scale = one_minus_lambda_ * one_minus_lambda_;
+  for (int i = cells_; i-- > 0;)
+    for (int m = 0; m < width; ++m) {
+      sum[m] = cell(i)[m] + lambda_ * sum[m];
+      cell(i)[m] = scale * sum[m];
+    }
+}
+
+Diffusion::Diffusion(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, double bandwidth) {
+  int rank, ranks;
+  check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
+  check_mpi(MPI_Comm_size(world, &ranks), "MPI_Comm_size");
+  begin_ = partition.begin(rank);
+  end_ = partition.end(rank);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = grid.cells()[axis];
+    if (n == 1) continue;  // nowhere to go
+    const double strength =
+        0.25 * std::pow(bandwidth / grid.spacing()[axis], 2) / diffusion_steps;  // tau / (n h^2)
+    // Lines numbered by their first cells: those of x and y are then mostly this rank's own.
+    const int along[2] = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
+    const CellId across = grid.cells()[along[0]], lines = across * grid.cells()[along[1]];
+    std::vector<CellId> cells;
+    for (CellId line = lines * rank / ranks; line < lines * (rank + 1) / ranks; ++line) {
+      std::array<int, 3> ijk{};
+      ijk[along[0]] = static_cast<int>(line % across);
+      ijk[along[1]] = static_cast<int>(line / across);
+      for (ijk[axis] = 0; ijk[axis] < n; ++ijk[axis]) cells.push_back(grid.id(ijk));
+    }
+    std::vector<CellId> sorted = cells;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<int> place;
+    place.reserve(cells.size());
+    for (const CellId cell : cells)
+      place.push_back(
+          static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), cell) - sorted.begin()));
+    axes_.push_back({RowDiffusion(n, strength, grid.periodic()[axis]), std::move(place), n,
+                     std::make_unique<TouchedCells>(world, partition, std::move(sorted))});
+  }
+}
+
+void Diffusion::set_open_shares(const CellValues<double>& share) {
+  CellValues<double> open;
+  for (CellId cell = begin_; cell < end_; ++cell) open.cells.push_back(cell);
+  open.values.assign(open.cells.size(), 1.0);
+  for (std::size_t i = 0; i < share.cells.size(); ++i) open.values[share.cells[i] - begin_] = share.values[i];
+  reached_ = diffused(open).values;
+  open_ = std::move(open.values);
+}
+
+void Diffusion::diffuse(const Axis& axis, double* values, int width) {
+  std::vector<double> row(std::size_t(axis.cells) * width);
+  for (std::size_t line = 0; line < axis.place.size(); line += axis.cells) {
+    const int* place = &axis.place[line];
+    bool empty = true;
+    for (int i = 0; i < axis.cells; ++i) {
+      const double* from = values + std::size_t(place[i]) * width;
+      empty = empty && std::all_of(from, from + width, [](double value) { return value == 0; });
+      std::copy_n(from, width, &row[std::size_t(i) * width]);
+    }
+    if (empty) continue;
+    for (int step = 0; step < diffusion_steps; ++step) axis.row.step(row.data(), width);
+    for (int i = 0; i < axis.cells; ++i)
+      std::copy_n(&row[std::size_t(i) * width], width, values + std::size_t(place[i]) * width);
+  }
+}
+
+}  // namespace demvof

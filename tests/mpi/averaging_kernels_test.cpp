@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Verification row averaging_kernels: what every averaging kernel must keep, and what tells them apart.
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include "coupler/config/enum_names.hpp"
+#include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/diffusion.hpp"
+#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/sphere_cells.hpp"
+#include "tests/support/mpi_main.hpp"
+#include "tests/support/record.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+const Kernel all_kernels[] = {Kernel::centre, Kernel::volume, Kernel::linear, Kernel::gaussian,
+                              Kernel::diffusion};
+
+struct Set {  // of particles
+  std::vector<Vec3> position;
+  std::vector<double> radius, value;  // m; what each deposits
+  void add(const Vec3& x, double r, double v = 1) {
+    position.push_back(x);
+    radius.push_back(r);
+    value.push_back(v);
+  }
+};
+
+AveragingParameters averaging(Kernel kernel, double bandwidth) {
+  AveragingParameters parameters;
+  parameters.kernel = kernel;
+  parameters.bandwidth = bandwidth;
+  return parameters;
+}
+
+/// Deposit and sample as dem_side does both, particles dealt out to the ranks of comm in turn.
+class Averager {
+ public:
+  Averager(MPI_Comm comm, const BulkGrid& grid, const AveragingParameters& parameters, const Set& all)
+      : comm_(comm), grid_(grid), partition_(grid.cell_count(), size()), particles_(all.position.size()) {
+    for (int i = rank(); i < particles_; i += size()) {
+      mine_.add(all.position[i], all.radius[i], all.value[i]);
+      number_.push_back(i);
+    }
+    weights_ = kernel_weights(grid, parameters, mine_.position, mine_.radius);
+    touched_ = std::make_unique<TouchedCells>(comm, partition_, weights_.cells);
+    if (parameters.kernel == Kernel::diffusion)
+      diffusion_ = std::make_unique<Diffusion>(comm, grid, partition_, parameters.bandwidth);
+  }
+  /// All cells, on every rank.
+  std::vector<double> deposit() const {
+    std::vector<double> touched(weights_.cells.size());
+    demvof::deposit(weights_, mine_.value.data(), 1, touched.data());
+    CellValues<double> owned = touched_->sum_to_owners(touched);
+    if (diffusion_) owned = diffusion_->spread(owned);
+    std::vector<double> all(grid_.cell_count(), 0.0);
+    for (std::size_t i = 0; i < owned.cells.size(); ++i) all[owned.cells[i]] = owned.values[i];
+    return sum(all);
+  }
+  /// cells: all of them. All particles, on every rank.
+  std::vector<double> sample(const std::vector<double>& cells) const {
+    CellValues<double> owned;
+    for (CellId cell = partition_.begin(rank()); cell < partition_.end(rank()); ++cell) {
+      owned.cells.push_back(cell);
+      owned.values.push_back(cells[cell]);
+    }
+    if (diffusion_) owned = diffusion_->gather(owned);
+    const std::vector<double> fetched = touched_->fetch_from_owners(owned, 0.0);
+    std::vector<double> sampled(number_.size()), all(particles_, 0.0);
+    demvof::sample(weights_, fetched.data(), 1, sampled.data());
+    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = sampled[i];
+    return sum(all);
+  }
+
+ private:
+  int rank() const {
+    int rank;
+    MPI_Comm_rank(comm_, &rank);
+    return rank;
+  }
+  int size() const {
+    int size;
+    MPI_Comm_size(comm_, &size);
+    return size;
+  }
+  std::vector<double> sum(std::vector<double> all) const {
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
+    return all;
+  }
+
+  MPI_Comm comm_;
+  BulkGrid grid_;
+  BulkPartition partition_;
+  int particles_;
+  Set mine_;
+  std::vector<int> number_;
+  KernelWeights weights_;
+  std::unique_ptr<TouchedCells> touched_;
+  std::unique_ptr<Diffusion> diffusion_;
+};
+
+std::vector<double> deposited(const BulkGrid& grid, const AveragingParameters& parameters, const Set& set) {
+  return Averager(MPI_COMM_SELF, grid, parameters, set).deposit();
+}
+double total(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Inside, on walls, edges and corners, and beyond; diameters from 0.1 to 3 cells.
+Set awkward(const BulkGrid& grid, int random_ones) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<> uniform(0, 1);
+  const Vec3 size = grid.upper() - grid.lower();
+  const double h = grid.spacing().x;
+  Set set;
+  const auto add = [&](double x, double y, double z) {
+    set.add(grid.lower() + Vec3{x * size.x, y * size.y, z * size.z}, h * (0.05 + 1.45 * uniform(random)),
+            0.1 + uniform(random));
+  };
+  for (int i = 0; i < random_ones; ++i) add(uniform(random), uniform(random), uniform(random));
+  for (const double x : {-0.3, 0.0, 0.5, 1.0, 1.2})
+    for (const double y : {-2.0, 0.0, 0.25, 1.0})
+      for (const double z : {-0.01, 0.0, 1.0, 1.4}) add(x, y, z);
+  return set;
+}
+
+/// Share of a sphere in a box by the midpoint rule over its chords.
+double share_by_chords(const Vec3& centre, double radius, const Vec3& low, const Vec3& high) {
+  const int n = 3000;
+  const double x0 = std::max(low.x, centre.x - radius), x1 = std::min(high.x, centre.x + radius);
+  const double y0 = std::max(low.y, centre.y - radius), y1 = std::min(high.y, centre.y + radius);
+  if (x1 <= x0 || y1 <= y0) return 0;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double x = x0 + (x1 - x0) * (i + 0.5) / n - centre.x,
+                   y = y0 + (y1 - y0) * (j + 0.5) / n - centre.y;
+      const double left = radius * radius - x * x - y * y;
+      if (left <= 0) continue;
+      const double half = std::sqrt(left);
+      sum += std::max(0.0, std::min(high.z, centre.z + half) - std::max(low.z, centre.z - half));
+    }
+  return sum * (x1 - x0) * (y1 - y0) / n / n / (4 * pi / 3 * std::pow(radius, 3));
+}
+
+class AveragingKernels : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    int rank;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0)
+      record_ = new test::Record("averaging_kernels", "Averaging kernels",
+                                 "Shares of particles in bulk cells for each kernel: nothing lost at walls, "
+                                 "corners and beyond them for "
+                                 "diameters up to three cells; moments away from walls; an even set stays "
+                                 "even at walls; a particle that "
+                                 "crosses a cell face changes the void fraction continuously (all kernels "
+                                 "but centre); sampling is the "
+                                 "transpose of depositing; the same numbers on 1 to 4 ranks.",
+                                 "tests/Alltest -- -R averaging_kernels");
+  }
+  static void TearDownTestSuite() { delete record_; }
+  /// On rank 0 alone; every rank has the same numbers.
+  static void record(const std::function<void(test::Record&)>& write) {
+    if (record_) write(*record_);
+  }
+  static test::Record* record_;
+};
+test::Record* AveragingKernels::record_ = nullptr;
+
+TEST_F(AveragingKernels, NothingIsLostAndNothingDependsOnTheRanks) {
+  for (const Kernel kernel : all_kernels) {
+    double worst_sum = 0, worst_difference = 0, lowest = 0, worst_transpose = 0, worst_ledger = 0;
+    for (const bool periodic : {false, true}) {
+      const BulkGrid grid({0, 0, 1}, {0.8, 0.5, 1.9}, {8, 5, 9}, {periodic, false, periodic});
+      const Set set = awkward(grid, 300);
+      const AveragingParameters parameters = averaging(kernel, 0.21);
+      const Averager alone(MPI_COMM_SELF, grid, parameters, set);
+      const std::vector<double> cells = alone.deposit();
+      const double given = total(set.value);
+      worst_sum = std::max(worst_sum, std::abs(total(cells) / given - 1));
+      lowest = std::min(lowest, *std::min_element(cells.begin(), cells.end()));
+
+      std::mt19937 random(5);
+      std::vector<double> field(cells.size());
+      for (double& value : field) value = std::uniform_real_distribution<>(-1, 1)(random);
+      const std::vector<double> sampled = alone.sample(field);
+      const double left = std::inner_product(field.begin(), field.end(), cells.begin(), 0.0);
+      const double right = std::inner_product(sampled.begin(), sampled.end(), set.value.begin(), 0.0);
+      worst_transpose = std::max(worst_transpose, std::abs(left - right) / given);
+
+      // What the fluid owes to the particles of a cell reaches them in full: M of a cell is shared by beta.
+      std::vector<double> rate(cells.size());
+      double owed = 0;
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        rate[c] = cells[c] > 0 ? field[c] / cells[c] : 0;
+        owed += cells[c] > 0 ? field[c] : 0;
+      }
+      const std::vector<double> received = alone.sample(rate);
+      const double handed_over = std::inner_product(received.begin(), received.end(), set.value.begin(), 0.0);
+      worst_ledger = std::max(worst_ledger, std::abs(handed_over - owed) / double(cells.size()));
+
+      int rank, size;
+      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+      MPI_Comm_size(MPI_COMM_WORLD, &size);
+      const double largest = *std::max_element(cells.begin(), cells.end());
+      for (int ranks = 2; ranks <= size; ++ranks) {
+        MPI_Comm some;
+        MPI_Comm_split(MPI_COMM_WORLD, rank < ranks, rank, &some);
+        if (rank < ranks) {
+          const Averager spread(some, grid, parameters, set);
+          const std::vector<double> same_cells = spread.deposit(), same_sampled = spread.sample(field);
+          for (std::size_t c = 0; c < cells.size(); ++c)
+            worst_difference = std::max(worst_difference, std::abs(same_cells[c] - cells[c]) / largest);
+          for (std::size_t i = 0; i < sampled.size(); ++i)
+            worst_difference = std::max(worst_difference, std::abs(same_sampled[i] - sampled[i]));
+        }
+        MPI_Comm_free(&some);
+      }
+    }
+    EXPECT_LE(worst_difference, 1e-13);
+    record([&](test::Record& r) {
+      const std::string name = name_of(kernel);
+      r.at_most(name + ": sum of all cells over what was deposited, less 1", worst_sum, 1e-12);
+      r.at_least(name + ": lowest value of a cell", lowest, 0);
+      r.at_most(name + ": sample against transposed deposit", worst_transpose, 1e-12);
+      r.at_most(name + ": left-over impulse handed to the particles against owed", worst_ledger, 1e-12);
+      r.at_most(name + ": 2 to 4 ranks against 1", worst_difference, 1e-13);
+    });
+  }
+}
+
+TEST_F(AveragingKernels, VolumeSharesAreTheCommonVolume) {
+  // Known: an octant, a cap, half a ball.
+  EXPECT_NEAR(unit_ball_beyond(0, 0, 0), pi / 6, 1e-15);
+  EXPECT_NEAR(unit_ball_beyond(0.3, -1, -1), pi / 3 * 0.49 * 2.3, 1e-15);
+  EXPECT_NEAR(unit_ball_beyond(0, -1, -2), 2 * pi / 3, 1e-15);
+  EXPECT_EQ(unit_ball_beyond(0.6, 0.6, 0.6), 0);
+  EXPECT_EQ(unit_ball_beyond(1, -1, -1), 0);
+  double worst = 0;
+  const struct {
+    Vec3 centre;
+    double radius;
+  } spheres[] = {{{3.5, 3.5, 3.5}, 0.4},  {{3.5, 3.5, 3.5}, 0.5}, {{3.02, 3.9, 3.41}, 0.3},
+                 {{3.2, 3.1, 3.8}, 0.77}, {{3, 3, 3}, 0.6},       {{3.37, 3.61, 3.05}, 1.5}};
+  const BulkGrid grid({0, 0, 0}, {7, 7, 7}, {7, 7, 7});
+  for (const auto& [centre, radius] : spheres) {
+    SphereCells sphere(grid);
+    sphere.find(centre, radius);
+    double sum = 0;
+    for (std::size_t k = 0; k < sphere.index(2).size(); ++k)
+      for (std::size_t j = 0; j < sphere.index(1).size(); ++j)
+        for (std::size_t i = 0; i < sphere.index(0).size(); ++i) {
+          sum += sphere.share(i, j, k);
+          if ((i + j + k) % 2) continue;  // every other cell will do
+          const std::array<int, 3> ijk{sphere.index(0)[i], sphere.index(1)[j], sphere.index(2)[k]};
+          const Vec3 low = grid.cell_lower(ijk);
+          const double expected = share_by_chords(centre, radius, low, low + Vec3{1, 1, 1});
+          worst = std::max(worst, std::abs(sphere.share(i, j, k) - expected));
+        }
+    EXPECT_NEAR(sum, 1, 2e-15);
+  }
+  record([&](test::Record& r) {
+    r.at_most("volume: share against numerical integration (midpoint rule, 3000^2 chords)", worst, 1e-7);
+  });
+}
+
+TEST_F(AveragingKernels, Moments) {
+  // Cells of width 1; mean over positions of the particle within a cell.
+  const int n = 41;
+  const BulkGrid grid({0, 0, 0}, {n, 1, 1}, {n, 1, 1});
+  const double d = 0.5, b = 3, sigma = 0.5;
+  const double c = gaussian_cut, phi = std::exp(-0.5 * c * c) / std::sqrt(2 * pi);
+  const double cut = 1 - 2 * c * phi / std::erf(c / std::sqrt(2.0));
+  const std::map<Kernel, double> expected{{Kernel::centre, 1. / 12},
+                                          {Kernel::volume, d * d / 20 + 1. / 12},
+                                          {Kernel::linear, 1. / 6},
+                                          {Kernel::gaussian, sigma * sigma * cut + 1. / 12},
+                                          {Kernel::diffusion, b * b / 2 + 1. / 6}};
+  for (const Kernel kernel : all_kernels) {
+    const int positions = 400;
+    double worst_mean = 0, second = 0;
+    for (int p = 0; p < positions; ++p) {
+      Set set;
+      const double x = n / 2 + (p + 0.5) / positions;
+      set.add({x, 0.5, 0.5}, d / 2);
+      const std::vector<double> cells = deposited(grid, averaging(kernel, b), set);
+      double mean = 0;
+      for (int i = 0; i < n; ++i) {
+        mean += cells[i] * (i + 0.5 - x);
+        second += cells[i] * std::pow(i + 0.5 - x, 2) / positions;
+      }
+      worst_mean = std::max(worst_mean, std::abs(mean));
+    }
+    record([&](test::Record& r) {
+      const std::string name = name_of(kernel);
+      const std::string first = name + ": centre of the shares less that of the particle, in cells";
+      if (kernel == Kernel::linear || kernel == Kernel::diffusion)
+        r.at_most(first, worst_mean, 1e-6);
+      else if (kernel == Kernel::gaussian)
+        r.at_most(first, worst_mean, 5e-3);
+      else
+        r.note(first, worst_mean);
+      r.at_most(name + ": second moment against the kernel's, relative",
+                std::abs(second / expected.at(kernel) - 1), 1e-4);
+    });
+  }
+}
+
+TEST_F(AveragingKernels, AnEvenSetStaysEvenAtWalls) {
+  const BulkGrid grid({0, 0, 0}, {6, 5, 4}, {6, 5, 4}, {false, true, false});
+  Set set;
+  for (int i = 0; i < 24; ++i)
+    for (int j = 0; j < 20; ++j)
+      for (int k = 0; k < 16; ++k) set.add({(i + 0.5) / 4, (j + 0.5) / 4, (k + 0.5) / 4}, 0.31);
+  for (const Kernel kernel : all_kernels) {
+    double worst = 0;
+    for (const double value : deposited(grid, averaging(kernel, 2.5), set))
+      worst = std::max(worst, std::abs(value / 64 - 1));
+    record([&](test::Record& r) {
+      r.at_most(name_of(kernel) + ": unevenness of an even set between walls", worst, 1e-12);
+    });
+  }
+}
+
+TEST_F(AveragingKernels, CrossingACellFace) {
+  // Cells of two diameters; the particle moves by two cells through a face, an edge's neighbourhood and
+  // walls.
+  const BulkGrid grid({0, 0, 0}, {6, 5, 5}, {6, 5, 5});
+  const double d = 0.5, b = 6 * d;
+  const CellId cell = grid.id({3, 2, 2});
+  for (const Kernel kernel : all_kernels) {
+    std::vector<double> steps{0.02, 0.002, 0.0002}, jumps;
+    for (const double step : steps) {
+      double jump = 0;
+      std::vector<double> before;
+      for (int i = 0; i < 120; ++i) {  // around the places where something begins or ends
+        for (const double around : {0.0, 0.25, 2.25, 2.75, 3.0, 3.5, 4.0}) {
+          for (int s = 0; s < 2; ++s) {
+            Set set;
+            const double x = around + (i - 60 + s) * step;
+            set.add({x, 2.43 + 0.1 * x, 2.61}, d / 2);
+            const std::vector<double> now = deposited(grid, averaging(kernel, b), set);
+            if (s == 1)
+              for (std::size_t c = 0; c < now.size(); ++c)
+                jump = std::max(jump, std::abs(now[c] - before[c]));
+            before = now;
+          }
+        }
+      }
+      jumps.push_back(jump);
+    }
+    // The path through the middle of a row of cells.
+    std::vector<double> path, share, rate;
+    double largest_rate = 0;
+    for (double x = 1.5; x <= 3.5001; x += 0.01) {
+      Set set;
+      set.add({x, 2.5, 2.5}, d / 2);
+      path.push_back(x - 3);
+      share.push_back(deposited(grid, averaging(kernel, b), set)[cell]);
+      if (share.size() > 1)
+        largest_rate = std::max(largest_rate, std::abs(share.back() - share.end()[-2]) / 0.01);
+    }
+    record([&](test::Record& r) {
+      const std::string name = name_of(kernel);
+      const std::string jump = name + ": largest change of a share in a step of 2e-4 cells";
+      if (kernel == Kernel::centre)
+        r.note(jump, jumps.back());
+      else
+        r.at_most(jump, jumps.back(), 2e-4 * 6);
+      r.curve("change of a share in one step", "step / cell width", "largest change, -", name, steps, jumps,
+              "xy");
+      r.note(name +
+                 ": largest d(share)/d(position in cells), mean over 0.01 cells: d(eps)/dt = that U V_p / (h "
+                 "V_cell)",
+             largest_rate);
+      r.curve("share of the cell behind a face (cells of two diameters)",
+              "position of the particle / cell width", "share, -", name, path, share, "", "-");
+    });
+  }
+}
+
+TEST_F(AveragingKernels, SpheresLargerThanACell) {
+  const BulkGrid grid({0, 0, 0}, {9, 9, 9}, {9, 9, 9});
+  Set set;
+  set.add({4.5, 4.5, 4.5}, 1.5, 4 * pi / 3 * 1.5 * 1.5 * 1.5);
+  for (const Kernel kernel : all_kernels) {
+    const std::vector<double> cells = deposited(grid, averaging(kernel, 18), set);
+    const double largest = *std::max_element(cells.begin(), cells.end());
+    record([&](test::Record& r) {
+      const std::string name =
+          name_of(kernel) + ": solid fraction of the fullest cell, sphere of three cells";
+      if (kernel == Kernel::volume)
+        r.at_most(name, largest, 1 + 1e-14);
+      else
+        r.note(name, largest);
+    });
+  }
+}
+
+TEST_F(AveragingKernels, DiffusionIsMirroredAtWallsAndNearTheGaussian) {
+  std::mt19937 random(2);
+  for (const double strength : {1e-3, 0.3, 40.0, 1e5})
+    for (const int n : {1, 2, 7, 50}) {
+      std::vector<double> row(n), twice(2 * n);
+      for (int i = 0; i < n; ++i)
+        row[i] = twice[i] = twice[2 * n - 1 - i] = std::uniform_real_distribution<>(0, 1)(random);
+      const std::vector<double> before = row;
+      RowDiffusion(n, strength, false).step(row.data(), 1);
+      RowDiffusion(2 * n, strength, true).step(twice.data(), 1);
+      for (int i = 0; i < n; ++i) {
+        EXPECT_NEAR(row[i], twice[i], 1e-13);
+        const double left = row[std::max(i - 1, 0)], right = row[std::min(i + 1, n - 1)];
+        EXPECT_NEAR((1 + 2 * strength) * row[i] - strength * (left + right), before[i],
+                    1e-13 * (1 + strength));
+      }
+    }
+
+  // Distance from the Gaussian, half the integral of |difference|, on cells of a tenth of a standard
+  // deviation.
+  const int half = 60, n = 2 * half + 1;
+  std::vector<double> steps, one, three;
+  for (const int count : {1, 2, 3, 4, 6, 8, 12, 16}) {
+    std::vector<double> row(n, 0.0), gauss(n);
+    row[half] = 1;
+    for (int step = 0; step < count; ++step) RowDiffusion(n, 50.0 / count, false).step(row.data(), 1);
+    for (int i = 0; i < n; ++i)
+      gauss[i] = 0.1 / std::sqrt(2 * pi) * std::exp(-0.005 * (i - half) * (i - half));
+    double along = 0, in_space = 0;
+    for (int i = 0; i < n; ++i) {
+      along += 0.5 * std::abs(row[i] - gauss[i]);
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k)
+          in_space += 0.5 * std::abs(row[i] * row[j] * row[k] - gauss[i] * gauss[j] * gauss[k]);
+    }
+    steps.push_back(count);
+    one.push_back(along);
+    three.push_back(in_space);
+    if (count == diffusion_steps)
+      record([&](test::Record& r) {
+        r.at_most("diffusion: part of a particle that is elsewhere than in the Gaussian, in space", in_space,
+                  0.15);
+      });
+  }
+  record([&](test::Record& r) {
+    r.note("diffusion: implicit steps", diffusion_steps);
+    r.curve("diffusion: distance from the Gaussian", "implicit steps", "part that is elsewhere, -",
+            "along an axis", steps, one, "xy");
+    r.curve("diffusion: distance from the Gaussian", "implicit steps", "part that is elsewhere, -",
+            "in space", steps, three, "xy");
+  });
+}
+
+}  // namespace
+}  // namespace demvof
