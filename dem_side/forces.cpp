@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <type_traits>
 
 #include "coupler/closures/drag.hpp"
+#include "coupler/closures/own_wake.hpp"
 #include "coupler/config/enum_names.hpp"
+#include "coupler/config/read_case.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
@@ -36,6 +40,20 @@ struct NoDrag {
   double factor(const CarriedFluid&, double, double, ClosureCount&) const { return 0; }
 };
 
+// Drag factor for the slip that is seen when the drag follows the slip without the particle's own wake, which
+// is slip / (1 - psi); psi at that slip, which one repetition finds.
+template <class Drag>
+double without_own_wake(const Drag& law, const CarriedFluid& fluid, double diameter, double slip,
+                        double width, ClosureCount& count) {
+  const auto ratio = [&](double beta, double true_slip) {
+    return 1 / (1 - own_wake_share(beta, fluid.density, fluid.viscosity, true_slip, width));
+  };
+  ClosureCount first_guess;
+  const double true_slip = slip * ratio(law.factor(fluid, diameter, slip, first_guess), slip);
+  const double beta = law.factor(fluid, diameter, true_slip, count);
+  return beta * ratio(beta, true_slip);
+}
+
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
 // particle that touches nothing is zero or a last bit of its weight.
 bool touches(const Vec3& contact, const Vec3& weight) {
@@ -45,6 +63,16 @@ bool touches(const Vec3& contact, const Vec3& weight) {
 constexpr Vec3 WindowImpulses::*window_impulses[] = {&WindowImpulses::drag,      &WindowImpulses::pressure,
                                                      &WindowImpulses::left_over, &WindowImpulses::held,
                                                      &WindowImpulses::contact,   &WindowImpulses::gravity};
+
+// The own wake is that of a point force when it is spread over at least a diameter.
+void require_spread(const WakeWidth& width, double diameter) {
+  if (width(diameter) >= diameter) return;
+  throw InputError(fmt::format(
+      "forces.own_wake: averaging spreads a particle's force over {:.3g} m in the velocity that it feels, "
+      "which "
+      "must be a diameter ({:.3g} m) at least: use wider bulk cells or a wider kernel, or leave own_wake out",
+      width(diameter), diameter));
+}
 
 void store(double* components, const Vec3& vector) {
   components[0] = vector.x;
@@ -87,6 +115,11 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters)
   }
 }
 
+void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diameter) {
+  require_spread(width, largest_diameter);
+  own_wake_width_ = width;
+}
+
 double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
   return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
 }
@@ -97,6 +130,7 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
   double* const* rows = dem_.particle_rows(rows_name);
   for (int i = 0; i < particles.count; ++i) {
     const FluidAtParticle& here = fluid[i];
+    if (own_wake_width_) require_spread(*own_wake_width_, 2 * particles.radius[i]);
     const double beta = mean_drag_factor(carried_by(rows, i));  // of the window that left something over
     CarriedFluid carried;
     carried.velocity = here.velocity;
@@ -139,7 +173,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     if (fluid.density == 0) continue;
 
     const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
-    const double beta = drag_law.factor(fluid, 2 * particles.radius[i], norm(slip), drag_count_);
+    const double diameter = 2 * particles.radius[i];
+    const double beta = own_wake_width_ ? without_own_wake(drag_law, fluid, diameter, norm(slip),
+                                                           (*own_wake_width_)(diameter), drag_count_)
+                                        : drag_law.factor(fluid, diameter, norm(slip), drag_count_);
     const Vec3 steady = fluid.pressure_force + fluid.left_over_force;
     const Vec3 drag = moves ? implicit_drag(beta, slip, contact + weight + steady, mass, step) : beta * slip;
     fluid.drag_factor_sum += beta;

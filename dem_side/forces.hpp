@@ -17,12 +17,14 @@
 // therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
 // drag + pressure + left-over - held + contact + gravity, add up to its change to round-off.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/wake_width.hpp"
 #include "dem_side/dem.hpp"
 
 namespace demvof {
@@ -70,6 +72,11 @@ class FluidForces {
   FluidForces(const FluidForces&) = delete;
   FluidForces& operator=(const FluidForces&) = delete;
 
+  /// From here on drag goes by the slip that is left when the particle's own disturbance is taken out of the
+  /// fluid velocity (closures/own_wake.hpp). width: over which that is spread.
+  /// Throws InputError when that is less than the largest diameter; begin_window() does for later particles.
+  void take_out_own_wake(const WakeWidth& width, double largest_diameter);
+
   /// Starts a window with the fluid at each local particle. window: s.
   void begin_window(const std::vector<FluidAtParticle>& fluid, double window);
 
@@ -94,6 +101,7 @@ class FluidForces {
   Dem& dem_;
   DragLaw drag_;
   bool pressure_gradient_;
+  std::optional<WakeWidth> own_wake_width_;
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window

@@ -67,6 +67,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
 
+  if (parameters.forces.own_wake != OwnWake::none)
+    forces.take_out_own_wake(WakeWidth(grid, averaged), dem.census().max_diameter);
+
   run_stage().set("handshake");
   Link link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);

@@ -69,6 +69,7 @@ void Plan::forces(const ForceParameters& forces) {
   const bool drag = forces.drag != DragLaw::none;
   decide_force(drag ? "drag (" + name_of(forces.drag) + ")" : "drag", drag);
   decide_force("pressure-gradient force", forces.pressure_gradient);
+  decide_force("own wake taken out of the velocity felt", forces.own_wake != OwnWake::none);
 }
 
 bool Plan::interface_advection() {
