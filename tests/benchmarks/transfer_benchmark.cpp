@@ -8,6 +8,7 @@
 
 #include <random>
 
+#include "coupler/transfer/diffusion.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "coupler/transfer/remap.hpp"
 #include "tests/support/meshes.hpp"
@@ -55,6 +56,18 @@ void sample_rows(benchmark::State& state) {
   for (auto _ : state) sample(weights, cell_rows.data(), row, rows.data());
 }
 BENCHMARK(sample_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
+
+/// What the diffusion kernel adds to a deposit, and again to a sample.
+void diffuse_rows(benchmark::State& state) {
+  const Diffusion diffusion(MPI_COMM_SELF, grid, BulkPartition(grid.cell_count(), 1), 6 * 2.7e-3);
+  CellValues<BulkParticles> cells;
+  for (CellId cell = 0; cell < 2400; ++cell) {  // the bed
+    cells.cells.push_back(cell);
+    cells.values.emplace_back().solid_volume = 1e-7;
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(diffusion.spread(cells));
+}
+BENCHMARK(diffuse_rows)->Unit(benchmark::kMillisecond);
 
 /// Fine mesh with range(0) cells per bulk cell edge; range(1): turned by 0.3 rad about the box's centre.
 FineMesh mesh(const benchmark::State& state) {

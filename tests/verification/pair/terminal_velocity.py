@@ -1,0 +1,154 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Verification row terminal_velocity: single spheres that settle in a wide box, against the drag law's own terminal
+velocity, with and without the correction for the particle's own wake.
+
+    terminal_velocity.py <demvof> [--long]
+"""
+import math
+import sys
+
+from box_case import BoxCase, Particle, Slip, Wall, scratch
+from record import Record
+
+GRAVITY = 9.81
+WATER, AIR = (1000, 1e-6), (1.2, 1.5e-5)  # density, kg/m3; kinematic viscosity, m2/s
+EXCHANGE_ERRORS = []  # of each run: what one side gave and the other did not receive, relative
+
+
+def drag_factor(diameter, fluid, speed):
+    """Schiller and Naumann 1935, kg/s."""
+    density, nu = fluid
+    reynolds = speed * diameter / nu
+    if reynolds < 1000:
+        return 3 * math.pi * density * nu * diameter * (1 + 0.15 * reynolds**0.687)
+    return math.pi / 8 * 0.44 * density * speed * diameter**2
+
+
+def bisect(function, low, high):
+    """Where a rising function is zero."""
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if function(middle) < 0 else (low, middle)
+    return low
+
+
+class Sphere:
+    """Sphere of a density that reaches the given Reynolds number in the fluid."""
+
+    def __init__(self, name, fluid, density, reynolds):
+        self.name, self.fluid, self.density, self.reynolds = name, fluid, density, reynolds
+        rho, nu = fluid
+
+        def excess_weight(d):
+            speed = reynolds * nu / d
+            return math.pi / 6 * d**3 * (density - rho) * GRAVITY - drag_factor(d, fluid, speed) * speed
+
+        self.diameter = bisect(excess_weight, 1e-7, 1)
+        self.speed = reynolds * nu / self.diameter
+        self.mass = density * math.pi / 6 * self.diameter**3
+
+    def relaxation_length(self):
+        """Way over which a difference from the terminal velocity falls to 1/e, at most, in diameters."""
+        return self.mass / drag_factor(self.diameter, self.fluid, self.speed) * self.speed / self.diameter
+
+
+SPHERES = [Sphere("glass in water, Re = 0.1", WATER, 2500, 0.1),
+           Sphere("hollow glass in air, Re = 1", AIR, 200, 1),
+           Sphere("glass in water, Re = 10", WATER, 2500, 10),
+           Sphere("foam in air, Re = 100", AIR, 20, 100),
+           Sphere("foam in air, Re = 900", AIR, 20, 900),
+           Sphere("glass in water, Re = 4000", WATER, 2500, 4000)]
+
+
+def settle(demvof, sphere, spacing, own_wake, across=12, refine=1, kernel="gaussian", fall=None,
+           side=Slip, courant=0.1):
+    """Speed over the exact one at each window; x: way fallen, diameters. spacing: bulk, in diameters."""
+    h = spacing * sphere.diameter
+    fall = max(8 * h, 6 * sphere.relaxation_length() * sphere.diameter) if fall is None else fall * sphere.diameter
+    along = math.ceil(fall / h) + 10
+    window = courant * h / sphere.speed
+    windows = math.ceil(fall / sphere.speed / window)
+    case = BoxCase(scratch("terminal_velocity"), upper=(across * h, across * h, along * h),
+                   fine=(refine * across, refine * across, refine * along), bulk=(across, across, along),
+                   end_time=windows * window, window=window, liquid=sphere.fluid, tolerance=1e-8,
+                   forces=[{"drag": "schiller_naumann"}, "pressure_gradient"], dem_step=window / 4,
+                   coupling={"averaging": {"kernel": kernel}})
+    if own_wake:
+        case.forces.append({"own_wake": "oseen"})
+    for name in case.sides:
+        case.sides[name] = side()
+    # Not on a symmetry plane of the grid; the start is slower than the end.
+    case.particles = [Particle((0.5 * across * h + 0.13 * h, 0.5 * across * h - 0.21 * h, (along - 5) * h),
+                               sphere.diameter, sphere.density, velocity=(0, 0, -0.9 * sphere.speed))]
+    case.script_tail = f"neighbor {h:.17g} bin\n"  # one particle: no need for bins of its own size
+    run = case.run(demvof)
+    EXCHANGE_ERRORS.append(run.number("conservation.exchange"))
+    energy = run.history["particle_kinetic_energy"]
+    ratio = [math.sqrt(2 * e / sphere.mass) / sphere.speed for e in energy]
+    return [courant * spacing * i for i in range(len(ratio))], ratio
+
+
+def main():
+    demvof, long = sys.argv[1], "--long" in sys.argv
+    record = Record(
+        "terminal_velocity", "Terminal velocity of single spheres",
+        "One sphere settles from 0.9 of its terminal velocity in a box of fluid at rest, through the real pair; the "
+        "velocity it ends with is compared with the one at which the drag law balances its weight. Six spheres from "
+        "Re = 0.1 to 4000 in water and air at a bulk spacing of 8 diameters with own_wake: oseen; the error against "
+        "the bulk spacing with and without that correction; the same for the other kernels. The box is 12 bulk cells "
+        "wide with slip walls, which is 96 diameters at the spacing of 8: what a box of 160 diameters and no-slip "
+        "walls change is recorded.",
+        "tests/Alltest --verification -- -R pair.terminal_velocity")
+    at_spacing_of_eight(demvof, record, SPHERES if long else [SPHERES[0], SPHERES[5]])
+    if long:
+        curves(demvof, record)
+        box_mesh_and_kernel(demvof, record)
+    record.at_most("momentum exchanged: relative error, worst of all runs", max(EXCHANGE_ERRORS), 1e-12)
+    sys.exit(record.write())
+
+
+def at_spacing_of_eight(demvof, record, spheres):
+    for sphere in spheres:
+        way, ratio = settle(demvof, sphere, 8, True)
+        record.at_most(f"{sphere.name}: error of the terminal velocity", abs(ratio[-1] - 1), 0.01)
+        record.at_most(f"{sphere.name}: change over the last fifth of the way",
+                       abs(ratio[-1] - ratio[int(0.8 * len(ratio))]), 0.002)
+        record.curve("approach to the terminal velocity, bulk spacing 8 d", "way / d", "velocity / exact",
+                     sphere.name, way[1:], ratio[1:], "x", "-")
+        uncorrected = settle(demvof, sphere, 8, False)[1][-1] - 1
+        record.note(f"{sphere.name}: velocity / exact - 1 without correction", uncorrected)
+        if sphere.reynolds < 1:  # the test must see what the correction does
+            record.at_least(f"{sphere.name}: too fast without correction", uncorrected, 0.03)
+
+
+def curves(demvof, record):
+    spacings = [1.5, 2, 3, 4, 6, 8]
+    for sphere in (SPHERES[1], SPHERES[5]):
+        for own_wake in (False, True):
+            errors = [settle(demvof, sphere, spacing, own_wake, across=16, fall=30)[1][-1] - 1
+                      for spacing in spacings]
+            label = "corrected" if own_wake else "not corrected"
+            record.curve("error of the terminal velocity against the bulk spacing", "bulk spacing / d",
+                         "velocity / exact - 1", f"{sphere.name}, {label}", spacings, errors)
+            for spacing, error in zip(spacings, errors):
+                record.note(f"{sphere.name}, spacing {spacing} d, {label}: velocity / exact - 1", error)
+
+
+def box_mesh_and_kernel(demvof, record):
+    sphere, end = SPHERES[0], lambda *args, **options: settle(demvof, SPHERES[0], *args, **options)[1][-1]
+    normal = end(8, True)
+    for what, options in {"box of 160 d": {"across": 20}, "no-slip walls": {"side": Wall},
+                          "fluid mesh twice as fine as the bulk grid": {"refine": 2},
+                          "windows half as long": {"courant": 0.05}}.items():
+        record.note(f"{sphere.name}: change of velocity / exact, {what}", end(8, True, **options) - normal)
+    sphere = SPHERES[1]
+    for kernel in ("centre", "volume", "linear", "diffusion"):
+        for own_wake in (False, True):
+            error = settle(demvof, sphere, 4, own_wake, across=16, kernel=kernel)[1][-1] - 1
+            record.note(f"{sphere.name}: {kernel}, spacing 4 d, {'corrected' if own_wake else 'not corrected'}: "
+                        "velocity / exact - 1", error)
+
+
+if __name__ == "__main__":
+    main()
