@@ -178,7 +178,7 @@ TEST(ResolvedConfiguration, HoldsEveryKey) {
   const CaseFile file(full);
   const auto json = nlohmann::json::parse(resolved_configuration(read_case(file.path())));
   EXPECT_EQ(json["coupling"]["averaging"]["maximum_solid_fraction"], 0.6);
-  EXPECT_EQ(json["forces"], nlohmann::json::parse(R"([{"drag": "none"}])"));
+  EXPECT_EQ(json["forces"], nlohmann::json::parse(R"([{"drag": "none"}, {"own_wake": "none"}])"));
   EXPECT_EQ(json["scene"]["particles"], "auto") << "a default";
   EXPECT_EQ(json["fluid"]["case"], "fluid") << "as given";
 }
