@@ -104,10 +104,8 @@ std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owne
           1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, fluid.void_fraction,
           {}};
 
-    const auto& cells = deposited_.cells;
-    const auto found = std::lower_bound(cells.begin(), cells.end(), owned.cells[i]);
-    const bool known = found != cells.end() && *found == owned.cells[i];
-    const double drag_factor = known ? deposited_.values[found - cells.begin()].drag_factor : 0;
+    const BulkParticles* particles = find(deposited_, owned.cells[i]);
+    const double drag_factor = particles ? particles->drag_factor : 0;
     if (drag_factor > 0)
       sample.left_over_rate = fluid.left_over / drag_factor;
     else

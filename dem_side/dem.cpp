@@ -121,6 +121,10 @@ double Dem::time_step() const {
   return liggghts_->update->dt;
 }
 
+ContactTimes Dem::contact_times() const {
+  return shortest_contact_times(*liggghts_);
+}
+
 Vec3 Dem::gravity() const {
   Vec3 gravity;
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
@@ -141,16 +145,19 @@ ParticleDomain Dem::domain() const {
 ParticleCensus Dem::census() const {
   const ParticleArrays local = particles();
   double sums[2] = {static_cast<double>(local.count), 0};
-  double extremes[2] = {-std::numeric_limits<double>::max(), 0};  // -smallest, largest radius
+  constexpr double none = std::numeric_limits<double>::max();
+  double extremes[3] = {-none, 0, -none};  // -smallest, largest radius; -smallest mass/radius
   for (int i = 0; i < local.count; ++i) {
     sums[1] += sphere_volume(local.radius[i]);
     extremes[0] = std::max(extremes[0], -local.radius[i]);
     extremes[1] = std::max(extremes[1], local.radius[i]);
+    extremes[2] = std::max(extremes[2], -local.mass[i] / local.radius[i]);
   }
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world_), "MPI_Allreduce");
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 2, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
   const long count = std::lround(sums[0]);
-  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1]};
+  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1],
+          count ? -extremes[2] / (6 * 3.14159265358979323846) : 0};
 }
 
 bool Dem::inserts_particles() const {

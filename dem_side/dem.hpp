@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "coupler/grid/vec3.hpp"
+#include "dem_side/contact_times.hpp"
 #include "dem_side/particle_arrays.hpp"
 
 namespace LAMMPS_NS {
@@ -30,6 +31,7 @@ struct ParticleCensus {
   long count = 0;
   double min_diameter = 0, max_diameter = 0;  // m; 0 without particles
   double solid_volume = 0;                    // m3
+  double lightest_response = 0;               // smallest mass/(3 pi diameter), kg/m; 0 without particles
 };
 
 /// Owner of one LIGGGHTS instance that has read a user's script.
@@ -68,8 +70,9 @@ class Dem {
   bool has_weight(int mask) const { return mask & weighed_; }
 
   MPI_Comm world() const { return world_; }
-  double time_step() const;  // s
-  Vec3 gravity() const;      // m/s2
+  double time_step() const;            // s
+  ContactTimes contact_times() const;  // collective
+  Vec3 gravity() const;                // m/s2
   ParticleDomain domain() const;
   ParticleCensus census() const;   // collective
   bool inserts_particles() const;  // the script has an insertion that is not over yet

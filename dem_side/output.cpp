@@ -40,11 +40,10 @@ CellValues<BulkFrame> bulk_frame(const BulkGrid& grid, double window,
     BulkFrame& here = frame.values[i];
     here.void_fraction = 1 - particles.values[i].solid_volume / grid.cell_volume();
     here.drag = -particles.values[i].drag_impulse / (window * grid.cell_volume());
-    const auto found = std::lower_bound(fluid.cells.begin(), fluid.cells.end(), frame.cells[i]);
-    if (found == fluid.cells.end() || *found != frame.cells[i]) continue;
-    const BulkFluid& cell = fluid.values[found - fluid.cells.begin()];
-    here.fluid_velocity = cell.velocity;
-    here.pressure_gradient = cell.pressure_gradient;
+    const BulkFluid* cell = find(fluid, frame.cells[i]);
+    if (!cell) continue;
+    here.fluid_velocity = cell->velocity;
+    here.pressure_gradient = cell->pressure_gradient;
   }
   return frame;
 }

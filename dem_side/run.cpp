@@ -35,6 +35,7 @@ const ParticleParameters& particle_parameters(const CaseParameters& parameters) 
 
 std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& world) {
   const ParticleCensus census = dem.census();
+  const ContactTimes contacts = dem.contact_times();
   const Vec3 momentum = half_step_momentum(dem);
   return nlohmann::json{{"particle_count", census.count},
                         {"min_diameter", census.min_diameter},
@@ -43,6 +44,9 @@ std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& wo
                         {"inserts_particles", dem.inserts_particles()},
                         {"time_step", dem.time_step()},
                         {"periodic", dem.domain().periodic},
+                        {"collision_time", contacts.collision},
+                        {"rayleigh_time", contacts.rayleigh},
+                        {"lightest_response", census.lightest_response},
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
                         {"momentum", {momentum.x, momentum.y, momentum.z}},
                         {"ranks", world.size()}}
@@ -96,7 +100,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   bool go_on = true;
   for (long n = 1; n <= windows && go_on; ++n) {
     run_stage().set("exchange with the fluid", static_cast<double>(n - 1) * coupling.window);
-    const auto fluid = link.receive<BulkFluid>();
+    const auto fluid = link.receive<BulkFluid>();  // at the start of this window, whatever the schedule
     {
       const Stopwatch watch(seconds.averaging);
       forces.begin_window(averaging.sample(fluid), coupling.window);

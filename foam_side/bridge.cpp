@@ -38,7 +38,12 @@ struct FluidSums {
   double eps_mu = 0;       // sum V eps mu
   double eps = 0;          // sum V eps
   double volume = 0;       // sum V
-  Vec3 implicit_impulse;   // given to the fluid by the implicit part, N s
+};
+
+/// Of a bulk cell, over its fine cells.
+struct CellSums {
+  double weight = 0;  // sum w V
+  double mass = 0;    // sum eps rho V, kg
 };
 
 BulkFluid means(const FluidSums& sum) {
@@ -84,6 +89,7 @@ CellValues<double> Bridge::open_shares() const {
 }
 
 void Bridge::take(CellValues<BulkParticles> particles) {
+  return_left_over(particles);
   owned_ = std::move(particles);
   distribute();
 }
@@ -93,9 +99,6 @@ void Bridge::distribute() {
   const CellValues<double> marks{owned_.cells, std::vector<double>(owned_.cells.size(), 1.0)};
   const std::vector<double> active = cells.fetch_from_owners(marks, 0.0);
   touched_ = cells.fetch_from_owners(owned_, BulkParticles{});
-  sources_.resize(touched_.size());
-  for (std::size_t slot = 0; slot < touched_.size(); ++slot)
-    sources_[slot] = fluid_source(parameters_.coupling.exchange, touched_[slot], parameters_.coupling.window);
   pieces_.clear();
   std::copy_if(remap_->pieces().begin(), remap_->pieces().end(), std::back_inserter(pieces_),
                [&](const Piece& piece) { return active[piece.slot] > 0; });
@@ -132,9 +135,19 @@ std::vector<double> Bridge::fine_weights() const {
 
 void Bridge::spread_sources() {
   const std::vector<double> weight = fine_weights();
-  std::vector<double> total(touched_.size(), 0.0);
-  for (const Piece& piece : pieces_) total[piece.slot] += weight[piece.fine] * piece.volume;
-  total = remap_->cells().fetch_from_owners(remap_->cells().sum_to_owners(total), 0.0);
+  std::vector<CellSums> total(touched_.size());
+  for (const Piece& piece : pieces_) {
+    total[piece.slot].weight += weight[piece.fine] * piece.volume;
+    total[piece.slot].mass += eps(piece.fine) * flow_.rho[piece.fine] * piece.volume;
+  }
+  total = remap_->cells().fetch_from_owners(remap_->cells().sum_to_owners(total), CellSums{});
+  const CouplingParameters& coupling = parameters_.coupling;
+  std::vector<FluidSource> sources(touched_.size());
+  for (std::size_t slot = 0; slot < sources.size(); ++slot) {
+    const double response =
+        fluid_response(coupling.schedule, touched_[slot], total[slot].mass, coupling.window);
+    sources[slot] = fluid_source(coupling.exchange, touched_[slot], response, coupling.window);
+  }
 
   ParticleSource& source = *flow_.source;
   source.force = Foam::dimensionedVector(source.force.dimensions(), Foam::Zero);
@@ -143,8 +156,8 @@ void Bridge::spread_sources() {
   const auto& volume = flow_.mesh.V();
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
-    const FluidSource& bulk = sources_[piece.slot];
-    const double share = weight[piece.fine] * piece.volume / (total[piece.slot] * volume[piece.fine]);
+    const FluidSource& bulk = sources[piece.slot];
+    const double share = weight[piece.fine] * piece.volume / (total[piece.slot].weight * volume[piece.fine]);
     coefficient_part_[i] = share * bulk.coefficient;
     source.force[piece.fine] += share * to_foam(bulk.explicit_force);
     source.coefficient[piece.fine] += coefficient_part_[i];
@@ -158,7 +171,43 @@ void Bridge::spread_sources() {
       source.coefficient[cell];
 }
 
-CellValues<BulkFluid> Bridge::bulk_fluid() const {
+void Bridge::end_window() {
+  left_over_ = {};
+  if (!hands_back_left_over(parameters_.coupling.exchange)) return;
+  std::vector<Vec3> impulse(touched_.size());
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    impulse[pieces_[i].slot] -= coefficient_part_[i] * flow_.mesh.V()[pieces_[i].fine] *
+                                to_vec3(flow_.source->implicit_impulse[pieces_[i].fine]);
+  const CellValues<Vec3> owned = remap_->cells().sum_to_owners(impulse);
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    const BulkParticles* particles = find(owned_, owned.cells[i]);
+    if (!particles) continue;
+    left_over_.cells.push_back(owned.cells[i]);
+    left_over_.values.push_back({owned.values[i], particles->drag_factor});
+  }
+}
+
+/// The fluid gets it as if the particles had been given so much less drag.
+void Bridge::return_left_over(CellValues<BulkParticles>& particles) {
+  for (std::size_t i = 0; i < left_over_.cells.size(); ++i) {
+    const CellId cell = left_over_.cells[i];
+    LeftOver& owed = left_over_.values[i];
+    const auto place = std::lower_bound(particles.cells.begin(), particles.cells.end(), cell);
+    const auto slot = place - particles.cells.begin();
+    const bool there = place != particles.cells.end() && *place == cell;
+    const double now = there ? particles.values[slot].drag_factor : 0;
+    const Vec3 returned = (1 - share_for_particles(owed.drag_factor, now)) * owed.impulse;
+    if (norm(returned) == 0) continue;
+    if (!there) {
+      particles.cells.insert(place, cell);
+      particles.values.insert(particles.values.begin() + slot, BulkParticles{});
+    }
+    particles.values[slot].drag_impulse -= returned;
+    owed.impulse -= returned;
+  }
+}
+
+CellValues<BulkFluid> Bridge::bulk_fluid() {
   const std::vector<double> weight = fine_weights();
   const Foam::vectorField gradient = pressure_gradient(flow_);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
@@ -174,8 +223,6 @@ CellValues<BulkFluid> Bridge::bulk_fluid() const {
     sum.eps_mu += eps_v * viscosity()[piece.fine];
     sum.eps += eps_v;
     sum.volume += v;
-    sum.implicit_impulse += coefficient_part_[i] * flow_.mesh.V()[piece.fine] *
-                            to_vec3(flow_.source->implicit_impulse[piece.fine]);
   }
   const CellValues<FluidSums> owned = remap_->cells().sum_to_owners(sums);
   CellValues<BulkFluid> fluid;
@@ -183,9 +230,10 @@ CellValues<BulkFluid> Bridge::bulk_fluid() const {
     if (!(owned.values[i].volume > 0)) continue;
     fluid.cells.push_back(owned.cells[i]);
     fluid.values.push_back(means(owned.values[i]));
-    if (hands_back_left_over(parameters_.coupling.exchange))
-      fluid.values.back().left_over = -owned.values[i].implicit_impulse;
+    if (const LeftOver* owed = find(left_over_, owned.cells[i]))
+      fluid.values.back().left_over = owed->impulse;
   }
+  left_over_ = {};
   return fluid;
 }
 

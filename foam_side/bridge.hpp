@@ -27,6 +27,7 @@ class Bridge {
   CellValues<double> open_shares() const;
 
   /// Takes what the particles sent at the end of their window; these cells are active from now on.
+  /// Left-over impulse that the particles have run away from goes back to the fluid of its cell.
   /// particles: cells owned by this rank.
   void take(CellValues<BulkParticles> particles);
 
@@ -38,9 +39,13 @@ class Bridge {
   /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
   void spread_sources();
 
-  /// The fluid on the active bulk cells owned by this rank, and the impulse that the implicit part
-  /// of the sources gave the fluid since begin_window: it is owed to the particles.
-  CellValues<BulkFluid> bulk_fluid() const;
+  /// Notes what the implicit part of the sources gave the fluid of each bulk cell since begin_window:
+  /// it is owed to the particles.
+  void end_window();
+
+  /// The fluid on the active bulk cells owned by this rank, and the impulse owed to their particles,
+  /// which is theirs from now on.
+  CellValues<BulkFluid> bulk_fluid();
 
   /// Impulses of the window just simulated, sums over all ranks, N s.
   struct Impulses {
@@ -51,6 +56,12 @@ class Bridge {
   CellId active_cells() const;  // over all ranks
 
  private:
+  /// Impulse owed to the particles of a bulk cell, and the drag it came from.
+  struct LeftOver {
+    Vec3 impulse;            // N s
+    double drag_factor = 0;  // sum of w beta, kg/s
+  };
+  void return_left_over(CellValues<BulkParticles>& particles);
   void distribute();
   std::vector<double> fine_weights() const;
   double eps(int cell) const { return flow_.porosity ? flow_.porosity->eps[cell] : 1.0; }
@@ -62,8 +73,8 @@ class Bridge {
   BulkPartition partition_;
   std::unique_ptr<Remap> remap_;
   CellValues<BulkParticles> owned_;       // as received
+  CellValues<LeftOver> left_over_;        // owned cells; not handed over yet
   std::vector<BulkParticles> touched_;    // per touched cell of the remap
-  std::vector<FluidSource> sources_;      // per touched cell of the remap
   std::vector<Piece> pieces_;             // those in active bulk cells
   std::vector<double> coefficient_part_;  // per piece: its part of the fine cell's coefficient, -
 };

@@ -20,6 +20,7 @@
 #include "foam_side/mesh_ends.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
+#include "foam_side/step_limits.hpp"
 
 namespace demvof {
 
@@ -76,6 +77,13 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
   record.start(flow, json::parse(link.swap_text("{}")));
   fields.write(flow, true);
 
+  const bool concurrent = parameters.coupling.schedule == Schedule::concurrent;
+  const auto take_particles = [&] {
+    CellValues<BulkParticles> particles = link.receive<BulkParticles>();
+    const Stopwatch watch(seconds.mapping);
+    bridge.take(std::move(particles));
+  };
+
   bool go_on = true;
   for (long n = 1; n <= windows && go_on; ++n) {
     run_stage().set("exchange with the particles", flow.time.value());
@@ -83,11 +91,10 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
       const Stopwatch watch(seconds.mapping);
       link.send(bridge.bulk_fluid());
     }
-    CellValues<BulkParticles> particles = link.receive<BulkParticles>();
-    {
-      const Stopwatch watch(seconds.mapping);
-      bridge.take(std::move(particles));
-    }
+    if (concurrent)
+      link.deliver();  // the particles do this window now, the fluid with what they did in the last
+    else
+      take_particles();  // they have done this window
     {
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, static_cast<double>(n) * window);
@@ -97,6 +104,8 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
       }
     }
     run_stage().set("end of the window", flow.time.value());
+    bridge.end_window();
+    if (concurrent) take_particles();  // for the fluid's next window
     RunRecord::Window done;
     done.number = n;
     done.planned = windows;
@@ -151,7 +160,7 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
 }
 
 /// The first window's numbers; the flow has not moved, so its step is the one it starts with.
-ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow,
+ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow, double surface_tension,
                                  const std::optional<BulkGrid>& grid, const json& particles) {
   ResolvedNumbers numbers;
   numbers.fluid_time_step = flow.time.deltaTValue();
@@ -167,6 +176,14 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
   numbers.bulk_cells = static_cast<long>(grid->cell_count());
   numbers.bulk_spacing = std::min({grid->spacing().x, grid->spacing().y, grid->spacing().z});
   numbers.particles = particles.at("particle_count");
+  const StepLimits limits(flow.time.controlDict());
+  const double rate = limits.room(courant_rates(flow));
+  if (limits.adjust && rate < 1e-3 / Foam::SMALL) numbers.courant_step = rate;
+  if (limits.adjust && limits.step < Foam::GREAT) numbers.longest_step = limits.step;
+  if (flow.scene.surface_tension) numbers.capillary_step = capillary_step(flow, surface_tension);
+  numbers.collision_time = particles.at("collision_time");
+  numbers.rayleigh_time = particles.at("rayleigh_time");
+  numbers.drag_time = particles.at("lightest_response").get<double>() / Foam::gMax(dynamic_viscosity(flow)());
   numbers.min_diameter = particles.at("min_diameter");
   numbers.max_diameter = particles.at("max_diameter");
   return numbers;
@@ -200,7 +217,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   install_signal_handlers();
   if (paired) require_mesh_fits(*grid, flow->mesh);
   if (options.check) {
-    const ResolvedNumbers numbers = resolved_numbers(parameters, *flow, grid, particles);
+    const ResolvedNumbers numbers =
+        resolved_numbers(parameters, *flow, facts.surface_tension, grid, particles);
     if (world.rank() == 0) fmt::print("{}\n{}", scene_table(scene.decisions), numbers_table(numbers));
     if (link) link->close();
     return exit_done;

@@ -36,13 +36,20 @@ Vec3 vec3(const json& array) {
   return {array.at(0), array.at(1), array.at(2)};
 }
 
+void add_vector(Quantities& quantities, const std::string& name, const Vec3& vector) {
+  quantities[name + "_x"] = vector.x;
+  quantities[name + "_y"] = vector.y;
+  quantities[name + "_z"] = vector.z;
+}
+
 /// Names that this run can record, in the order of the table.
 std::vector<std::string> recorded_names(const CaseParameters& parameters, bool particles) {
   if (!parameters.output.history.empty()) return parameters.output.history;
   std::vector<std::string> names;
   for (const Quantity& quantity : known_quantities) {
     const std::string name(quantity.name);
-    const bool of_particles = name == "particles" || name == "solid_front" || name.rfind("particle_", 0) == 0;
+    const bool of_particles = name == "particles" || name == "solid_front" ||
+                              name.rfind("particle_", 0) == 0 || name.rfind("pending_", 0) == 0;
     if (particles || !of_particles) names.push_back(name);
   }
   return names;
@@ -114,12 +121,15 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
   balance.liquid_volume = liquid_volume;
   if (!window.particles.is_null()) {
     const json& p = window.particles;
-    const bool owes = hands_back_left_over(parameters_.coupling.exchange);
+    const CouplingParameters& coupling = parameters_.coupling;
     balance.drag_to_particles = vec3(p.at("drag_impulse"));
     balance.left_over_to_particles = vec3(p.at("left_over_given"));
     balance.explicit_to_fluid = window.explicit_impulse;
     balance.implicit_to_fluid = window.implicit_impulse;
-    if (owes) balance.pending = vec3(p.at("left_over_unplaced")) - window.implicit_impulse;
+    unplaced_ += vec3(p.at("left_over_unplaced"));
+    if (hands_back_left_over(coupling.exchange)) balance.pending = unplaced_ - window.implicit_impulse;
+    if (coupling.schedule == Schedule::concurrent && pays_drag_impulse(coupling.exchange))
+      balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
     balance.particle_momentum = vec3(p.at("momentum"));
     balance.external = vec3(p.at("drag_impulse")) + balance.left_over_to_particles +
                        vec3(p.at("pressure_impulse")) + vec3(p.at("contact_impulse")) +
@@ -196,9 +206,12 @@ Quantities RunRecord::all_quantities(const Flow& flow, const json& particles) co
   Quantities q = fluid_quantities(flow);
   q["kinetic_energy_ratio"] = initial_potential_ > 0 ? q["kinetic_energy"] / initial_potential_ : 0;
   q["mechanical_energy"] = q["kinetic_energy"] + q["potential_energy"];
+  add_vector(q, "fluid_momentum", fluid_momentum(flow));
   if (particles.is_null()) return q;
   q["particles"] = particles.at("count");
   q["particle_kinetic_energy"] = particles.at("kinetic_energy");
+  add_vector(q, "particle_momentum", vec3(particles.at("momentum")));
+  add_vector(q, "pending_momentum", pending_);
   // dem_side counts potential energy from the origin, the fluid from the lowest corner of its mesh.
   q["particle_potential_energy"] =
       particles.at("potential_energy").get<double>() +

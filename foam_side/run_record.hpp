@@ -71,7 +71,8 @@ class RunRecord {
   ProgressFile progress_;
   std::optional<Ledger> ledger_;
   double initial_potential_ = 0;  // J
-  Vec3 pending_;                  // owed to the particles, N s
+  Vec3 pending_;                  // received by one side, not yet by the other, N s
+  Vec3 unplaced_;                 // of this, what found no particle at all
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
   nlohmann::json last_particles_;

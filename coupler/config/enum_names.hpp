@@ -19,7 +19,8 @@ template <class E>
 inline const EnumNames<E> enum_names;
 
 template <>
-inline const EnumNames<Schedule> enum_names<Schedule> = {{Schedule::staggered, "staggered"}};
+inline const EnumNames<Schedule> enum_names<Schedule> = {{Schedule::staggered, "staggered"},
+                                                         {Schedule::concurrent, "concurrent"}};
 template <>
 inline const EnumNames<ExchangeScheme> enum_names<ExchangeScheme> = {
     {ExchangeScheme::explicit_drag, "explicit"},

@@ -180,7 +180,9 @@ std::vector<Key> make_keys() {
       required(key("coupling.window", above(0, number("s")),
                    "Both sides advance by one window between exchanges; a whole number of DEM time steps.",
                    DEMVOF_AT(coupling.window))),
-      key("coupling.schedule", one_of<Schedule>(), "Who advances when; staggered: one side after the other.",
+      key("coupling.schedule", one_of<Schedule>(),
+          "Who advances when; staggered: the particles, then the fluid; concurrent: both at the same time, "
+          "each with what the other did in the window before.",
           DEMVOF_AT(coupling.schedule)),
       key("coupling.exchange", one_of<ExchangeScheme>(), "How momentum passes between particles and fluid.",
           DEMVOF_AT(coupling.exchange)),

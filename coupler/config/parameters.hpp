@@ -30,7 +30,7 @@ struct BulkGridParameters {
   std::array<int, 3> cells{1, 1, 1};  // cells per direction
 };
 
-enum class Schedule { staggered };
+enum class Schedule { staggered, concurrent };
 enum class ExchangeScheme { explicit_drag, semi_implicit, conservative_implicit };  // YAML: explicit, ...
 enum class Kernel { centre, volume, linear, gaussian, diffusion };
 enum class Mapping { nearest, conservative };

@@ -12,12 +12,15 @@
 // L    impulse that the particles received as left-over of the window before, N s
 // F_e  impulse that the fluid received by the explicit part of the exchange, N s
 // F_i  and by its implicit part, N s
-// P    pending: received by the fluid, still owed to the particles, N s. After a window
-//      P = -F_i with conservative_implicit, plus what could not be handed over; else 0
+// P    pending: received by one side, still owed to the other, N s. After a window the sum of
+//      -F_i  with conservative_implicit: owed to the particles
+//      -J    with the concurrent schedule, except semi_implicit: owed to the fluid
+//      what could be handed to nobody so far
 // m_s, m_f   momentum of particles and fluid, kg m/s
 // I    impulse from outside: gravity, walls, contacts with walls, pressure at the boundary, N s
 //
-// With conservative_implicit F_e = -J, L = P_n and P_n+1 = -F_i, so that the first sum is zero cell by cell.
+// With conservative_implicit F_e = -J, L = P_n and P_n+1 = -F_i, so that the first sum is zero cell by cell;
+// concurrent, with R returned to the fluid, F_e = R - J of the window before and L = -R - F_i of it.
 // semi_implicit leaves J + F_i open: the books show how much.
 
 #include <algorithm>

@@ -24,6 +24,19 @@
 
 namespace demvof {
 
+/// K_eff V of a bulk cell, kg/s. Staggered: that of the particles, free ones following the fluid within the
+/// window. Concurrent: what they answer arrives a window late, and a fluid that counts on their following
+/// swings beyond it where they weigh more than itself; there beta, which counts on nothing. The limit is the
+/// middle of the range, 0.5 to 0.8, in which nothing grows (tests/unit/exchange_stability.cpp).
+/// fluid_mass: in the cell, kg; window, s.
+inline double fluid_response(Schedule schedule, const BulkParticles& particles, double fluid_mass,
+                             double window) {
+  constexpr double limit = 0.65;
+  if (schedule == Schedule::staggered) return particles.drag_response;
+  return particles.drag_response * window <= limit * fluid_mass ? particles.drag_response
+                                                                : particles.drag_factor;
+}
+
 /// Force of the particles on the fluid of one bulk cell: explicit_force + coefficient (reference - u).
 struct FluidSource {
   Vec3 explicit_force;      // N
@@ -32,7 +45,9 @@ struct FluidSource {
 };
 
 /// particles: of the window just simulated by the DEM; window: s, > 0.
-inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& particles, double window) {
+/// response: K_eff V, kg/s.
+inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& particles, double response,
+                                double window) {
   FluidSource source;
   switch (scheme) {
     case ExchangeScheme::explicit_drag:
@@ -45,12 +60,24 @@ inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& part
       break;
     case ExchangeScheme::conservative_implicit:
       source.explicit_force = -particles.drag_impulse / window;
-      source.coefficient = particles.drag_response;
+      source.coefficient = response;
       if (particles.drag_response > 0)
         source.reference_velocity = particles.response_weighted_velocity / particles.drag_response;
       break;
   }
   return source;
+}
+
+/// True when the fluid gets the very impulse that the particles received as drag.
+inline bool pays_drag_impulse(ExchangeScheme scheme) {
+  return scheme != ExchangeScheme::semi_implicit;
+}
+
+/// Of a left-over impulse, the part that the particles in its cell take: all of it, unless they answer with
+/// less drag than those that left it over did. Concurrent particles have moved on before they hear of it;
+/// the rest goes back to the fluid it came from. drag_factor then and now: sum of w beta, kg/s.
+inline double share_for_particles(double drag_factor_then, double drag_factor_now) {
+  return drag_factor_now < drag_factor_then ? drag_factor_now / drag_factor_then : 1.0;
 }
 
 /// True when the impulse of the implicit part goes back to the particles in the next window.

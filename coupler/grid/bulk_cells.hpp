@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -15,6 +16,14 @@ struct CellValues {
   std::vector<CellId> cells;
   std::vector<T> values;
 };
+
+/// The value of a cell; nullptr where there is none.
+template <class T>
+const T* find(const CellValues<T>& values, CellId cell) {
+  const auto place = std::lower_bound(values.cells.begin(), values.cells.end(), cell);
+  return place != values.cells.end() && *place == cell ? &values.values[place - values.cells.begin()]
+                                                       : nullptr;
+}
 
 /// What the fluid tells the particles about one bulk cell at the start of a window.
 struct BulkFluid {

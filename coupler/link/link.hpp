@@ -61,6 +61,9 @@ class Link {
   void send(const CellValues<T>& owned) {
     send_rows(owned.cells, reinterpret_cast<const double*>(owned.values.data()), row_width<T>());
   }
+  /// Waits until the partner has everything that was sent: whoever computes for long after a send calls it,
+  /// since MPI may not move a message while nobody is inside MPI.
+  void deliver() { finish_sends(); }
   /// Receives the values for the cells owned by this rank, as the partner sent them.
   template <class T>
   CellValues<T> receive() {

@@ -40,6 +40,16 @@ inline constexpr std::array known_quantities = {
     Quantity{"particle_kinetic_energy", "J", "sum of m v.v / 2 (translation)"},
     Quantity{"particle_potential_energy", "J", "sum of -m g.x, lowest corner of the mesh at 0"},
     Quantity{"mechanical_energy", "J", "kinetic and potential energy of fluids and particles"},
+    Quantity{"fluid_momentum_x", "kg m/s", "integral of eps rho u, x"},
+    Quantity{"fluid_momentum_y", "kg m/s", "its y component"},
+    Quantity{"fluid_momentum_z", "kg m/s", "its z component"},
+    Quantity{"particle_momentum_x", "kg m/s",
+             "sum of m v + dt f/2, DEM half steps; without held particles, x"},
+    Quantity{"particle_momentum_y", "kg m/s", "its y component"},
+    Quantity{"particle_momentum_z", "kg m/s", "its z component"},
+    Quantity{"pending_momentum_x", "kg m/s", "received by one side, still owed to the other, x"},
+    Quantity{"pending_momentum_y", "kg m/s", "its y component"},
+    Quantity{"pending_momentum_z", "kg m/s", "its z component"},
     Quantity{"particles", "-", "number of particles in the run"},
 };
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 namespace demvof {
 
 std::string numbers_table(const ResolvedNumbers& n) {
@@ -11,11 +14,28 @@ std::string numbers_table(const ResolvedNumbers& n) {
     table += fmt::format("{:<12}  {}\n", label, value);
   };
   if (n.windows > 0) row("windows", fmt::format("{} of {:.4g} s", n.windows, n.window));
-  if (n.fluid_steps > 0)
+  const auto limits = [&row](const std::vector<std::pair<const char*, double>>& times, double step) {
+    std::string line;
+    for (const auto& [name, time] : times)
+      if (time > 0)
+        line += fmt::format("{}{:.2g} of {} ({:.3g} s)", line.empty() ? "" : ", ", step / time, name, time);
+    if (!line.empty()) row("", line);
+  };
+  if (n.fluid_steps > 0) {
     row("fluid steps",
         fmt::format("{} of {:.4g} s in the first window (k)", n.fluid_steps, n.fluid_time_step));
-  if (n.dem_steps > 0)
+    limits({{"the Courant limit", n.courant_step},
+            {"maxDeltaT", n.longest_step},
+            {"a capillary wave", n.capillary_step}},
+           n.fluid_time_step);
+  }
+  if (n.dem_steps > 0) {
     row("DEM steps", fmt::format("{} of {:.4g} s in each window (n)", n.dem_steps, n.dem_time_step));
+    limits({{"a collision", n.collision_time},
+            {"a Rayleigh wave", n.rayleigh_time},
+            {"drag m/beta", n.drag_time}},
+           n.dem_time_step);
+  }
   row("fine cells", fmt::format("{} at the start", n.fine_cells));
   if (n.particles > 0) {
     const double diameter = n.max_diameter;

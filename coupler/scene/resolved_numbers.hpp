@@ -13,7 +13,14 @@ struct ResolvedNumbers {
   long dem_steps = 0;          // per window (n)
   double fluid_time_step = 0;  // the first, s
   long fluid_steps = 0;        // in the first window (k); later ones follow from the Courant number
-  long fine_cells = 0;         // at the start
+  // What the steps follow from, s; 0: there is no such limit, or it is not known.
+  double courant_step = 0;    // longest by the Courant numbers of the flow at the start
+  double longest_step = 0;    // maxDeltaT
+  double capillary_step = 0;  // shortest capillary wave on the smallest cell
+  double collision_time = 0;  // of the lightest particle
+  double rayleigh_time = 0;   // of the particle with the shortest
+  double drag_time = 0;       // m/beta of the particle with the shortest, slow flow
+  long fine_cells = 0;        // at the start
   long bulk_cells = 0;
   double bulk_spacing = 0;                    // smallest edge of a bulk cell, m
   long particles = 0;                         // at the start

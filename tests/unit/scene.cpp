@@ -208,6 +208,10 @@ TEST(NumbersTable, ShowsStepsPerWindowCellsAndParticles) {
   numbers.dem_steps = 100;
   numbers.fluid_time_step = 1e-4;
   numbers.fluid_steps = 2;
+  numbers.courant_step = 2e-4;
+  numbers.capillary_step = 1e-3;
+  numbers.collision_time = 4e-5;
+  numbers.drag_time = 0.5;
   numbers.fine_cells = 48000;
   numbers.bulk_cells = 6000;
   numbers.bulk_spacing = 0.01;
@@ -216,7 +220,9 @@ TEST(NumbersTable, ShowsStepsPerWindowCellsAndParticles) {
   EXPECT_EQ(numbers_table(numbers),
             "windows       2500 of 0.0002 s\n"
             "fluid steps   2 of 0.0001 s in the first window (k)\n"
+            "              0.5 of the Courant limit (0.0002 s), 0.1 of a capillary wave (0.001 s)\n"
             "DEM steps     100 of 2e-06 s in each window (n)\n"
+            "              0.05 of a collision (4e-05 s), 4e-06 of drag m/beta (0.5 s)\n"
             "fine cells    48000 at the start\n"
             "bulk cells    6000, 4 particle diameters wide\n"
             "particles     3883 at the start, 0.0025 m\n");

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/contact_times.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atom.h"
+#include "coupler/link/mpi_check.hpp"
+#include "fix_property_global.h"
+#include "lammps.h"
+#include "modify.h"
+
+namespace demvof {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+LAMMPS_NS::FixPropertyGlobal* property(LAMMPS_NS::LAMMPS& liggghts, const char* name, const char* kind,
+                                       int rows, int columns) {
+  return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+      liggghts.modify->find_fix_property(name, "property/global", kind, rows, columns, "demvof", false));
+}
+
+}  // namespace
+
+ContactTimes shortest_contact_times(LAMMPS_NS::LAMMPS& liggghts) {
+  const LAMMPS_NS::Atom& atom = *liggghts.atom;
+  const int types = atom.ntypes;
+  auto* stiffness = property(liggghts, "kn", "peratomtypepair", types, types);
+  auto* modulus = property(liggghts, "youngsModulus", "peratomtype", types, 0);
+  auto* poisson = property(liggghts, "poissonsRatio", "peratomtype", types, 0);
+
+  double shortest[] = {HUGE_VAL, HUGE_VAL};
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const int type = atom.type[i] - 1;
+    const double r = atom.radius[i], mass = atom.rmass[i];
+    for (int other = 0; stiffness && other < types; ++other)
+      shortest[0] = std::min(shortest[0], pi * std::sqrt(0.5 * mass / stiffness->compute_array(type, other)));
+    if (modulus && poisson) {
+      const double nu = poisson->compute_vector(type), shear = modulus->compute_vector(type) / (2 * (1 + nu));
+      const double density = mass / (4.0 / 3.0 * pi * r * r * r);
+      shortest[1] = std::min(shortest[1], pi * r * std::sqrt(density / shear) / (0.1631 * nu + 0.8766));
+    }
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, shortest, 2, MPI_DOUBLE, MPI_MIN, liggghts.world), "MPI_Allreduce");
+  const auto known = [](double time) { return std::isfinite(time) ? time : 0.0; };
+  return {known(shortest[0]), known(shortest[1])};
+}
+
+}  // namespace demvof
