@@ -109,12 +109,14 @@ class BoxCase:
     first_step: float = None   # default: the window
     tolerance: float = 1e-10   # of the pressure solver
     relative_tolerance: float = 0.01  # of all but the last correction
+    velocity_solver: str = "solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0;"
     pimple: str = ""           # further entries of PIMPLE
     alpha_controls: str = "nAlphaCorr 1; nAlphaSubCycles 1; cAlpha 1; MULESCorr no;"
     output_interval: float = 0
     history_interval: float = 0
     script_tail: str = ""      # further lines of the LIGGGHTS script
     periodic: list = None      # of the particles' box, per direction; default: where the sides are cyclic
+    watched: dict = dataclasses.field(default_factory=dict)  # side -> field: its mean at every fluid step
     prepare: list = None
 
     def write(self):
@@ -175,7 +177,8 @@ class BoxCase:
               f"application interFoam; startFrom startTime; startTime 0; stopAt endTime; endTime {self.end_time};\n"
               f"deltaT {self.first_step or self.window}; writeControl adjustableRunTime; writeInterval 1e9;\n"
               "writeFormat binary; writePrecision 12; timePrecision 12; runTimeModifiable no;\n"
-              f"adjustTimeStep yes; maxCo {self.courant}; maxAlphaCo {self.courant}; maxDeltaT {self.longest_step};\n")
+              f"adjustTimeStep yes; maxCo {self.courant}; maxAlphaCo {self.courant}; maxDeltaT {self.longest_step};\n"
+              f"functions {{ {' '.join(self._watch(side, name) for side, name in self.watched.items())} }}\n")
         write("system/decomposeParDict", "dictionary",
               "numberOfSubdomains 2; method simple; coeffs { n (2 1 1); }\n")
         write("system/fvSchemes", "dictionary",
@@ -189,7 +192,7 @@ class BoxCase:
               f"    p_rgh {{ solver PCG; preconditioner DIC; tolerance {self.tolerance}; "
               f"relTol {self.relative_tolerance}; }}\n"
               "    p_rghFinal { $p_rgh; relTol 0; }\n    \"pcorr.*\" { $p_rgh; relTol 0; }\n"
-              "    \"U.*\" { solver smoothSolver; smoother symGaussSeidel; tolerance 1e-12; relTol 0; }\n}\n"
+              f"    \"U.*\" {{ {self.velocity_solver} }}\n}}\n"
               "PIMPLE { momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonalCorrectors 0; "
               f"pRefCell 0; pRefValue 0; {self.pimple} }}\n")
         if self.level is not None:
@@ -197,6 +200,11 @@ class BoxCase:
             write("system/setFieldsDict", "dictionary",
                   "defaultFieldValues ( volScalarFieldValue alpha.water 0 );\nregions ( boxToCell "
                   f"{{ box {vector(low)} {vector(high)}; fieldValues ( volScalarFieldValue alpha.water 1 ); }} );\n")
+
+    @staticmethod
+    def _watch(side, name):
+        return (f"{patch_name(side)}_{name} {{ type surfaceFieldValue; libs (fieldFunctionObjects); writeFields no; "
+                f"regionType patch; name {patch_name(side)}; operation areaAverage; fields ({name}); log no; }}")
 
     def _foam_file(self, name, kind, body):
         path = self.folder / "fluid" / name
@@ -222,12 +230,13 @@ class BoxCase:
     def _write_particles(self):
         folder = self.folder / "particles"
         folder.mkdir(parents=True)
+        type_held = 1 if all(p.held for p in self.particles) else 2  # LIGGGHTS wants types from 1 without gaps
         lines = [f"\n{len(self.particles)} atoms\n2 atom types\n"]
         lines += [f"{self.lower[a]:.17g} {self.upper[a]:.17g} {n}lo {n}hi" for a, n in enumerate("xyz")]
         lines.append("\nAtoms\n")
         for i, p in enumerate(self.particles, 1):
             x, y, z = p.position
-            lines.append(f"{i} {2 if p.held else 1} {p.diameter:.17g} {p.density:.17g} {x:.17g} {y:.17g} {z:.17g}")
+            lines.append(f"{i} {type_held if p.held else 1} {p.diameter:.17g} {p.density:.17g} {x:.17g} {y:.17g} {z:.17g}")
         lines.append("\nVelocities\n")
         for i, p in enumerate(self.particles, 1):
             lines.append("{} {:.17g} {:.17g} {:.17g} 0 0 0".format(i, *p.velocity))
@@ -253,7 +262,7 @@ fix mu all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
 pair_style gran model hooke/stiffness tangential history
 pair_coeff * *
 timestep {self.dem_step or self.window:.17g}
-group held type 2
+group held type {type_held}
 fix integrate all nve/sphere
 """
         size = sum(c * c for c in self.gravity) ** 0.5
@@ -285,6 +294,13 @@ def particle_states(folder):
     arrays["position"] = vtk_to_numpy(data.GetPoints().GetData())
     order = numpy.argsort(arrays["id"])
     return {name: values[order] for name, values in arrays.items()}
+
+
+def side_means(folder, side, field):
+    """Of a field watched on a side: times and means."""
+    import numpy
+    [file] = (pathlib.Path(folder) / "fluid" / "postProcessing" / f"{patch_name(side)}_{field}").glob("*/*.dat")
+    return numpy.loadtxt(file, ndmin=2).T[:2]
 
 
 def scratch(name):

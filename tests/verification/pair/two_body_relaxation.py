@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fluid and particles in one bulk cell come to a common velocity, at any stiffness and mass loading.
+
+A periodic box holds eight particles at rest; the fluid moves. In Stokes drag this is linear, and each exchange scheme is
+a small matrix from window to window (class Map). The real pair must follow it: its stability, its momentum, its
+equilibrium. Usage: two_body_relaxation.py DEMVOF [--long]"""
+import argparse
+import concurrent.futures
+import itertools
+import math
+
+import numpy
+from box_case import BoxCase, Cyclic, Particle, SIDES, scratch
+from record import Record
+
+SPEED = 1e-8       # of the fluid at the start, m/s: Re = 2e-8, drag is 3 pi mu d to 6 digits
+EDGE, DIAMETER = 0.01, 2e-3
+DENSITY, VISCOSITY = 1000.0, 1.0  # kg/m3, Pa s
+COUNT = 8
+SOLID = COUNT * math.pi / 6 * DIAMETER**3
+FLUID_MASS = DENSITY * (EDGE**3 - SOLID)
+DRAG_FACTOR = COUNT * 3 * math.pi * VISCOSITY * DIAMETER  # kg/s
+SCHEMES = ("explicit", "semi_implicit", "conservative_implicit")
+SCHEDULES = ("staggered", "concurrent")
+HELD = {"free": 0.0, "half held": 0.5, "held": 1.0}
+
+
+class Map:
+    """One window for the state (u, v, m, j, felt): fluid, free particles, left-over, and of the particles' last
+    window drag impulse and fluid velocity felt. Masses over the fluid's, time over the window.
+    stiffness: K dt/(rho eps); loading: mass of all particles over the fluid's."""
+
+    def __init__(self, scheme, schedule, stiffness, loading, held):
+        self.scheme, self.schedule, self.stiffness, self.held = scheme, schedule, stiffness, held
+        self.mass = loading * (1 - held)
+        self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(5)]).T
+
+    def window(self, now):
+        u, v, m, j, felt = now
+        free, held = (1 - self.held) * self.stiffness, self.held * self.stiffness
+        push = (1 - self.held) * m
+        new_v, new_j, response = v, held * u, held
+        if free > 0:
+            target = u + push / free
+            decay = -math.expm1(-free / self.mass)
+            new_v = v + (target - v) * decay
+            new_j += self.mass * (new_v - v) - push
+            response += self.mass * decay
+        if self.schedule == "concurrent":
+            if response > 0.65:  # coupler/exchange/momentum_exchange.hpp
+                response = self.stiffness
+            seen_j, seen_u, seen_v = j, felt, v
+        else:
+            seen_j, seen_u, seen_v = new_j, u, new_v
+        if self.scheme == "explicit":
+            new_u, new_m = u - seen_j, 0
+        elif self.scheme == "semi_implicit":
+            new_u, new_m = (u + free * seen_v) / (1 + self.stiffness), 0
+        else:
+            new_u = (u - seen_j + response * seen_u) / (1 + response)
+            new_m = response * (new_u - seen_u)
+        return [new_u, new_v, new_m, new_j, u]
+
+    def growth(self):
+        return abs(numpy.linalg.eigvals(self.matrix)).max()
+
+    def run(self, windows):
+        """Fluid and free-particle velocity at the end of each window, in units of the start's."""
+        # The first concurrent window of the fluid knows of no particles: nothing is paid, no drag pulls.
+        state, rows = numpy.array([1.0, 0, 0, 0, 0]), []
+        for n in range(windows):
+            state = self.first() if n == 0 and self.schedule == "concurrent" else self.matrix @ state
+            rows.append(state[:2])
+        return numpy.array(rows)
+
+    def first(self):
+        _, v, _, j, _ = self.window([1, 0, 0, 0, 1])
+        return numpy.array([1.0, v, 0, j, 1.0])
+
+
+def windows_of(mapping, wanted):
+    """As many as wanted, but none after the prediction has grown a thousandfold."""
+    size = abs(mapping.run(wanted)).max(axis=1)
+    grown = numpy.flatnonzero(size > 1e3)
+    return int(grown[0]) + 1 if len(grown) else wanted
+
+
+def simulate(demvof, name, scheme, schedule, stiffness, loading, held, wanted):
+    mapping = Map(scheme, schedule, stiffness, loading, held)
+    windows = windows_of(mapping, wanted)
+    window = float(f"{stiffness * FLUID_MASS / DRAG_FACTOR:.6g}")
+    steps = 4
+    case = BoxCase(scratch(f"two_body_relaxation/{name}"), (EDGE, EDGE, EDGE), (2, 2, 2), (1, 1, 1),
+                   windows * window, window, sides={side: Cyclic() for side in SIDES}, gravity=(0, 0, 0),
+                   liquid=(DENSITY, VISCOSITY / DENSITY), velocity=(SPEED, 0, 0), dem_step=window / steps,
+                   tolerance=1e-30, pimple="momentumPredictor yes;",  # viscosity acts within a step
+                   velocity_solver="solver PBiCGStab; preconditioner DILU; tolerance 1e-15; relTol 0;",
+                   coupling={"schedule": schedule, "exchange": scheme, "averaging": {"kernel": "centre"},
+                             "mapping": {"to_fine": "nearest", "to_bulk": "nearest"}})
+    places = itertools.product((0.25 * EDGE, 0.75 * EDGE), repeat=3)
+    for i, place in enumerate(places):
+        case.particles.append(Particle(place, DIAMETER, loading * FLUID_MASS / SOLID, held=i < held * COUNT))
+    run = case.run(demvof)
+    fluid = run.history["fluid_momentum_x"] / (FLUID_MASS * SPEED)
+    free_mass = loading * (1 - held)
+    particles = run.history["particle_momentum_x"] / (FLUID_MASS * SPEED)
+    pending = run.history["pending_momentum_x"] / (FLUID_MASS * SPEED)
+    predicted = Map(scheme, schedule, window * DRAG_FACTOR / FLUID_MASS, loading, held).run(windows)
+    velocity = numpy.column_stack([fluid[1:], particles[1:] / free_mass if free_mass else 0 * fluid[1:]])
+    total = fluid + particles + pending
+    return {"scheme": scheme, "schedule": schedule, "stiffness": stiffness, "loading": loading, "held": held,
+            "velocity": velocity, "growth": mapping.growth(),
+            "off_map": abs(velocity - predicted).max() / abs(predicted).max(),
+            "largest": abs(velocity).max(),
+            "momentum": abs(total - total[0]).max() / abs(numpy.stack([fluid, particles, pending])).max(),
+            "exchange": run.results["conservation"]["exchange"],
+            "seconds": run.results["wall_seconds"]["total"]}
+
+
+def sweep(long):
+    """(scheme, schedule, stiffness, loading, held, windows) of all runs."""
+    if long:
+        stiffnesses, loadings = [1e-2, 0.1, 1, 10, 100, 1e3, 1e4], [1e-3, 1e-2, 0.1, 1, 10, 100, 1e3]
+        for scheme, schedule, held in itertools.product(SCHEMES, SCHEDULES, HELD.values()):
+            for stiffness, loading in itertools.product(stiffnesses, loadings):
+                if held < 1 or loading == 1:  # held particles have no mass
+                    yield scheme, schedule, stiffness, loading, held, 40
+        return
+    for schedule in SCHEDULES:
+        for stiffness, loading, held in ((0.1, 1, 0.5), (1e3, 0.1, 0), (1e3, 10, 0), (1e4, 1, 1)):
+            yield "conservative_implicit", schedule, stiffness, loading, held, 12
+    for scheme in ("explicit", "semi_implicit"):
+        yield scheme, "staggered", 10, 1, 0, 12
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("demvof")
+    parser.add_argument("--long", action="store_true")
+    options = parser.parse_args()
+    record = Record(
+        "two_body_relaxation", "Fluid and particles coming to one velocity",
+        "A real pair in one periodic bulk cell in the Stokes range: drag stiffness K dt/(rho eps), mass loading, "
+        "particles free or held, exchange scheme and schedule are varied. Every run is compared, window by window, with "
+        "the exact linear map of its scheme.",
+        "tests/Alltest --verification -- -R pair.two_body_relaxation_long" if options.long else "tests/Alltest -- -R 'pair.two_body_relaxation$'")
+    cases = list(sweep(options.long))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        runs = list(pool.map(lambda numbered: simulate(options.demvof, numbered[0], *numbered[1]), enumerate(cases)))
+    judge(record, runs, options.long)
+    raise SystemExit(record.write())
+
+
+def distance(runs, windows):
+    """Worst of either velocity from the common one, in units of the fluid's at the start."""
+    return max(abs(run["velocity"][windows - 1] - 1 / (1 + run["loading"])).max() for run in runs)
+
+
+def unstable(run):
+    return run["largest"] > 3
+
+
+def judge(record, runs, long):
+    ours = [run for run in runs if run["scheme"] == "conservative_implicit"]
+    record.note("runs", len(runs))
+    for scheme, bound in (("explicit", 1e-4), ("conservative_implicit", 1e-4), ("semi_implicit", 1e-3)):
+        # semi_implicit pulls the fluid to the particles' velocity at the last full DEM step, the map's are half steps
+        record.at_most(f"{scheme}: distance from the linear map over the largest velocity, worst run",
+                       max(run["off_map"] for run in runs if run["scheme"] == scheme), bound)
+    for schedule in SCHEDULES:
+        some = [run for run in ours if run["schedule"] == schedule]
+        record.at_most(f"conservative_implicit, {schedule}: runs that grow", int(sum(map(unstable, some))), 0)
+        record.at_most(f"conservative_implicit, {schedule}: exchange of momentum open",
+                       max(run["exchange"] for run in some), 1e-10)
+        record.at_most(f"conservative_implicit, {schedule}: drift of total momentum, free particles",
+                       max(run["momentum"] for run in some if run["held"] == 0), 1e-10)
+        free = [run for run in some if run["held"] == 0 and run["stiffness"] >= 1e3]
+        for_both = [run for run in free if run["stiffness"] >= 100 * run["loading"]]
+        light = [run for run in free if run["loading"] <= 0.1]
+        name = f"{schedule}: distance from the common velocity, stiffness >= 1000, after"
+        if schedule == "staggered":
+            record.at_most(f"{name} 3 windows, if >= 100 for the particles too", distance(for_both, 3), 0.1)
+        else:
+            record.at_most(f"{name} 10 windows, loading <= 0.1", distance(light, 10), 0.1)
+        record.note(f"{name} 3 windows, all", distance(free, 3))
+        record.note(f"{name} 10 windows, all", distance(free, 10))
+    semi = [run for run in runs if run["scheme"] == "semi_implicit" and run["held"] == 0]
+    record.note("semi_implicit: worst error of total momentum, over the largest of its parts",
+                max(run["momentum"] for run in semi))
+    if long:
+        maps(record, runs)
+
+
+def maps(record, runs):
+    for scheme, schedule, (what, held) in itertools.product(SCHEMES, SCHEDULES, HELD.items()):
+        some = [r for r in runs if (r["scheme"], r["schedule"], r["held"]) == (scheme, schedule, held)]
+        record.note(f"{scheme}, {schedule}, {what}: runs that grow", int(sum(map(unstable, some))))
+        record.note(f"{scheme}, {schedule}, {what}: predicted to grow", int(sum(r["growth"] > 1 + 1e-6 for r in some)))
+    for scheme, schedule in itertools.product(("explicit", "conservative_implicit"), SCHEDULES):
+        picture = f"Free particles, {scheme}, {schedule}"
+        some = [r for r in runs if (r["scheme"], r["schedule"], r["held"]) == (scheme, schedule, 0)]
+        for label, style, grows in (("stays", "o", False), ("grows", "x", True)):
+            points = [r for r in some if unstable(r) == grows]
+            record.curve(picture, "K dt / (rho eps)", "mass loading", label, [r["stiffness"] for r in points],
+                         [r["loading"] for r in points], "xy", style)
+    for schedule in SCHEDULES:
+        for loading in (0.1, 1, 10):
+            r = next(r for r in runs if (r["scheme"], r["schedule"], r["held"], r["stiffness"], r["loading"])
+                     == ("conservative_implicit", schedule, 0, 1e3, loading))
+            record.curve("Fluid velocity over its equilibrium, K dt / (rho eps) = 1000", "window", "u (1 + loading)",
+                         f"{schedule}, loading {loading:g}", range(1, len(r["velocity"]) + 1),
+                         r["velocity"][:, 0] * (1 + loading))
+
+
+main()
