@@ -19,10 +19,18 @@ struct RunOptions {
   bool print_command = false, quiet = false;
 };
 
+struct StudyOptions {
+  std::string study_file;
+  std::string out;                // --out; empty: run_<study>, beside the study file
+  std::vector<std::string> only;  // --only: names of rows; empty: all
+  bool no_runs = false;
+};
+
 // The subcommands. Each returns the exit code; InputError is code 2, any other exception code 3.
 int prepare_command(const CaseOptions& options);
 int run_command(CaseOptions options, const RunOptions& run);
 int check_command(const CaseOptions& options);
 int report_command(const std::vector<std::string>& folders);
+int study_command(const StudyOptions& options);
 
 }  // namespace demvof

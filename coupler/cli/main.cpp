@@ -38,6 +38,7 @@ class CommandLine {
     add_prepare();
     add_run();
     add_report();
+    add_study();
     add_text("schema", "print the JSON Schema of the case file", schema_manual, case_file_schema);
     add_text("reference", "print the reference of the case file", reference_manual, case_file_reference);
   }
@@ -120,6 +121,18 @@ class CommandLine {
                             [this] { return report_command(folders_); });
     command->add_option("DIR", folders_, "Folders of runs")->required()->type_name("");
   }
+  void add_study() {
+    CLI::App* command = add("study", "error against run time of several runs", study_manual,
+                            [this] { return study_command(study_); });
+    command->add_option("STUDY", study_.study_file, "The study file (YAML)")->required()->type_name("");
+    command
+        ->add_option("--out", study_.out, "Folder of the runs; default: run_STUDY, beside the study file")
+        ->type_name("DIR");
+    command->add_option("--only", study_.only, "Make the runs of this row only; may be repeated")
+        ->type_name("ROW")
+        ->allow_extra_args(false);
+    command->add_flag("--no-runs", study_.no_runs, "Make no run; report on those that are there");
+  }
   void add_text(const std::string& name, const std::string& purpose, const char* manual,
                 std::string (*text)()) {
     add(name, purpose, manual, [text] {
@@ -132,6 +145,7 @@ class CommandLine {
   CaseOptions case_;
   RunOptions run_;
   std::vector<std::string> folders_;
+  StudyOptions study_;
   std::function<int()> action_;
 };
 

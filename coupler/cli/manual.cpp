@@ -128,6 +128,40 @@ EXAMPLES
     demvof report runs/single_scale runs/multiscale
 )";
 
+const char* const study_manual = R"(DESCRIPTION
+    Makes the runs that a study file lists, one after the other, and reports their errors against a
+    reference beside their run times: a table, pictures, and what a multiscale run costs beside the
+    cheapest single-scale run that is as good. A finished run is not repeated: a study that was
+    interrupted goes on with the same command. A run that fails is a row that says so.
+
+STUDY FILE
+    case: case.yaml                 the case, counted from the study file's folder
+    set: {coupling.end_time: 0.1}   settings of every run
+    quantities: [kinetic_energy]    columns of history.csv whose errors are measured
+    reference: {row: finest}        or {exact: {mean_level: 0.30982}}
+                                    or {file: points.csv, quantity: liquid_front, time: t, value: x};
+                                    also time_scale, value_scale, value_shift:
+                                    value_scale * (value + value_shift) at time_scale * time
+    repeat: 3                       runs per row; the median of their wall times counts
+    rows:
+      coarse: {single_scale: yes, set: {bulk_grid.cells: [40, 20, 60]}}
+      finest: {set: {...}}
+    sweep: {coupling.window: [5e-4, 2e-4]}   further rows, one for each combination
+
+FILES
+    DIR/study.json      rows with wall time, memory, errors; sentences
+    DIR/study.html      the same with pictures, one self-contained file
+    DIR/ROW/run         each row's run, as of demvof run
+
+EXIT STATUS
+    0 every row is done, 2 the study file is wrong, 3 a row failed or the study was interrupted
+
+EXAMPLES
+    demvof study study.yaml
+    demvof study study.yaml --only adaptive
+    demvof study study.yaml --no-runs
+)";
+
 const char* const schema_manual = R"(DESCRIPTION
     Prints the JSON Schema of the case file; editors that know it complete and check case files.
 

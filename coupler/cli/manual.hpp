@@ -22,6 +22,7 @@ extern const char* const check_manual;
 extern const char* const prepare_manual;
 extern const char* const run_manual;
 extern const char* const report_manual;
+extern const char* const study_manual;
 extern const char* const schema_manual;
 extern const char* const reference_manual;
 
