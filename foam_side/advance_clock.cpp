@@ -43,6 +43,7 @@ void choose_step_of_window(Flow& flow, const StepLimits& limits, const CourantRa
 void begin_window(Flow& flow, double t_end) {
   flow.clock.windowed = true;
   flow.clock.window_done = false;
+  flow.clock.window_begin = flow.time.value();
   flow.clock.window_end = t_end;
   if (flow.source)
     flow.source->implicit_impulse =

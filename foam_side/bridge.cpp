@@ -91,6 +91,10 @@ CellValues<double> Bridge::open_shares() const {
 void Bridge::take(CellValues<BulkParticles> particles) {
   return_left_over(particles);
   owned_ = std::move(particles);
+  solid_volume_before_ = std::move(solid_volume_);
+  solid_volume_ = {owned_.cells, std::vector<double>(owned_.values.size())};
+  for (std::size_t i = 0; i < owned_.values.size(); ++i)
+    solid_volume_.values[i] = owned_.values[i].solid_volume;
   distribute();
 }
 
@@ -105,10 +109,9 @@ void Bridge::distribute() {
   coefficient_part_.assign(pieces_.size(), 0.0);
 }
 
-scalarField Bridge::void_fraction() const {
-  std::vector<double> solid_volume(touched_.size());
-  for (std::size_t slot = 0; slot < touched_.size(); ++slot) solid_volume[slot] = touched_[slot].solid_volume;
-  const std::vector<double> solid_fraction = remap_->to_fine(solid_volume, 1);
+scalarField Bridge::void_fraction_of(const CellValues<double>& solid_volume) const {
+  const std::vector<double> solid_fraction =
+      remap_->to_fine(remap_->cells().fetch_from_owners(solid_volume, 0.0), 1);
   scalarField eps(flow_.mesh.nCells());
   forAll(eps, cell) {
     eps[cell] = 1 - solid_fraction[cell];

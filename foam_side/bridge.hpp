@@ -33,7 +33,9 @@ class Bridge {
 
   /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
   /// particles leave no room for the fluid.
-  scalarField void_fraction() const;
+  scalarField void_fraction() const { return void_fraction_of(solid_volume_); }
+  /// The same from what was taken the time before: at the begin of the present window.
+  scalarField void_fraction_before() const { return void_fraction_of(solid_volume_before_); }
 
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk
   /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
@@ -63,6 +65,7 @@ class Bridge {
   };
   void return_left_over(CellValues<BulkParticles>& particles);
   void distribute();
+  scalarField void_fraction_of(const CellValues<double>& solid_volume) const;
   std::vector<double> fine_weights() const;
   double eps(int cell) const { return flow_.porosity ? flow_.porosity->eps[cell] : 1.0; }
 
@@ -72,8 +75,10 @@ class Bridge {
   BulkGrid grid_;
   BulkPartition partition_;
   std::unique_ptr<Remap> remap_;
-  CellValues<BulkParticles> owned_;       // as received
-  CellValues<LeftOver> left_over_;        // owned cells; not handed over yet
+  CellValues<BulkParticles> owned_;  // as received
+  CellValues<LeftOver> left_over_;   // owned cells; not handed over yet
+  CellValues<double> solid_volume_;  // of these, m3
+  CellValues<double> solid_volume_before_;
   std::vector<BulkParticles> touched_;    // per touched cell of the remap
   std::vector<Piece> pieces_;             // those in active bulk cells
   std::vector<double> coefficient_part_;  // per piece: its part of the fine cell's coefficient, -

@@ -20,6 +20,7 @@
 #include "foam_side/crowding.hpp"
 #include "foam_side/openfoam.hpp"
 #include "foam_side/reconstruct.hpp"
+#include "foam_side/refinement.hpp"
 
 namespace demvof {
 
@@ -49,6 +50,7 @@ struct ParticleSource {
 struct Clock {
   bool windowed = false;         // begin_window was called
   bool window_done = true;       // the present step ends the window
+  double window_begin = 0;       // s
   double window_end = 0;         // s
   double limit = 0;              // longest step the Courant numbers allow in windows, s
   double courant = 0;            // of the present step, from the flux at its start
@@ -96,6 +98,7 @@ struct Flow {
   label p_reference_cell = 0;                         // closed boxes: where p has the value p_reference
   scalar p_reference = 0;                             // Pa
   std::unique_ptr<surfaceVectorField> face_velocity;  // only on a changing mesh, m/s
+  std::unique_ptr<Refinement> refinement;             // only with fluid.refinement
   tmp<surfaceScalarField> face_force;                 // (sigma kappa grad alpha - g.x grad rho).S, N/m
   PressureSystem pressure_system;
   std::unique_ptr<Reconstruction> reconstruct;
@@ -108,7 +111,9 @@ struct Flow {
 /// Reads an interFoam case. From here on OpenFOAM's errors are exceptions (Foam::error). Throws for
 /// what this solver does not do: time schemes other than Euler, MRF zones, fvOptions, moving meshes.
 /// args is only read. (The destructor of an argList ends the process with exit code 0.)
-std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene);
+/// refinement: what write_mesh_dictionary was given; nullptr: the case alone says how its mesh changes.
+std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
+                                const RefinementParameters* refinement = nullptr);
 
 /// The void fraction at the start: a state, not a change. eps: one value per cell.
 void set_initial_porosity(Flow& flow, const scalarField& eps);
@@ -126,7 +131,9 @@ void set_porosity_target(Flow& flow, const scalarField& eps);
 // ---- a time step, in this order ----------------------------------------------------------------
 
 bool advance_clock(Flow& flow);  // false at the window's end, or without windows at the run's end
-bool refine_mesh(Flow& flow);    // true if the mesh changed: fields are mapped, fluxes corrected
+bool refine_mesh(Flow& flow);    // true if the mesh changed: fields are mapped; then the next two
+void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end);  // with particles
+void settle_flux(Flow& flow);
 void update_porosity(Flow& flow);
 bool outer_corrector(Flow& flow);  // while true: the next four
 void advect_interface(Flow& flow);
@@ -134,6 +141,11 @@ void predict_momentum(Flow& flow);
 bool pressure_corrector(Flow& flow);  // while true: correct_pressure; then the turbulence model
 void correct_pressure(Flow& flow);
 void end_step(Flow& flow);  // impulse, bounds; without windows also output as in controlDict
+
+// renew_porosity gives new cells the void fraction that the bulk grid prescribes for them, at the begin
+// and end of the window, one value per cell: those that mapping gave them have no profile, and following
+// the prescribed one would push fluid to and fro between them. settle_flux makes the mapped flux
+// continuous.
 
 // ---- used by several stages --------------------------------------------------------------------
 

@@ -99,7 +99,8 @@ Flow::Flow(const Foam::argList& args, const Scene& plan)
   clock.limit = time.deltaTValue();
 }
 
-std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene) {
+std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
+                                const RefinementParameters* refinement) {
   Foam::FatalError.throwExceptions();
   Foam::FatalIOError.throwExceptions();
   auto flow = std::make_unique<Flow>(args, scene);
@@ -111,6 +112,7 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene) {
   flow->turbulence->validate();
   if (flow->mesh.dynamic())
     flow->face_velocity = std::make_unique<surfaceVectorField>("Uf", fvc::interpolate(flow->U));
+  if (refinement) flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
   return flow;
 }
 

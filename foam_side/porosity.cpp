@@ -60,6 +60,18 @@ void set_porosity_target(Flow& flow, const scalarField& eps) {
     fit_flux(flow, projection_mobility(flow), &wanted());
 }
 
+void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end) {
+  const Clock& clock = flow.clock;
+  const double now = flow.time.value() - flow.time.deltaTValue();  // the step has not changed eps yet
+  const double part = (now - clock.window_begin) / (clock.window_end - clock.window_begin);
+  Porosity& porosity = *flow.porosity;
+  const scalarField goal((1 - part) * begin + part * end);
+  porosity.eps.primitiveFieldRef() += goal - porosity.goal.field();  // keeps what eps lags behind
+  porosity.eps.correctBoundaryConditions();
+  porosity.goal.field() = goal;
+  porosity.rate.field() = (end - begin) / (clock.window_end - clock.window_begin);
+}
+
 void update_porosity(Flow& flow) {
   if (!flow.porosity) return;
   flow.porosity->eps.oldTime();  // kept here, before anything of this step changes eps

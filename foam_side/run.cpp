@@ -49,7 +49,11 @@ class FieldOutput {
 bool step_fluid(Flow& flow, Bridge* bridge) {
   if (!advance_clock(flow)) return false;
   run_stage().set("fluid step", flow.time.value());
-  if (refine_mesh(flow) && bridge) bridge->remap();
+  if (refine_mesh(flow)) {
+    if (bridge) bridge->remap();
+    if (flow.porosity) renew_porosity(flow, bridge->void_fraction_before(), bridge->void_fraction());
+    settle_flux(flow);
+  }
   update_porosity(flow);
   if (bridge) bridge->spread_sources();
   while (outer_corrector(flow)) {
@@ -193,6 +197,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
   send_output_to(options.out / "fluid.log", world.rank());
+  const std::optional<RefinementParameters>& refinement = parameters.fluid.refinement;
+  if (refinement && world.rank() == 0) write_mesh_dictionary(options.out / "fluid", *refinement);
   const Foam::argList& args = *open_case(options.out / "fluid", world);
   SceneFacts facts = fluid_facts(args);
 
@@ -213,7 +219,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const Scene scene = plan_scene(parameters.scene, facts, parameters.forces);
 
   run_stage().set("reading the fluid case");
-  const std::unique_ptr<Flow> flow = open_flow(args, scene);
+  const std::unique_ptr<Flow> flow = open_flow(args, scene, refinement ? &*refinement : nullptr);
   install_signal_handlers();
   if (paired) require_mesh_fits(*grid, flow->mesh);
   if (options.check) {

@@ -133,6 +133,10 @@ std::vector<Section> make_sections() {
   forces.is_list = true;
   return {
       {"fluid", "The OpenFOAM side: an ordinary interFoam case.", Presence::required},
+      optional_section("fluid.refinement",
+                       "Fine cells where they matter: the mesh of the case is refined at the interface, and "
+                       "coarsened behind it, while the run goes on.",
+                       DEMVOF_AT(fluid.refinement)),
       optional_section("particles", "The LIGGGHTS side; without this section the run is plain VOF.",
                        DEMVOF_AT(particles)),
       optional_section(
@@ -160,6 +164,20 @@ std::vector<Key> make_keys() {
       key("fluid.prepare", list_of(any, text()),
           "OpenFOAM commands that make mesh and fields, run in the copied case in this order.",
           DEMVOF_AT(fluid.prepare)),
+
+      key("fluid.refinement.levels", integer(1, 5), "How often a cell of the case's mesh may be halved.",
+          DEMVOF_AT(fluid.refinement->levels)),
+      key("fluid.refinement.buffer", integer(1, 20),
+          "Rings of cells around the interface that are fine too; the mesh is renewed before the interface "
+          "has crossed half of them.",
+          DEMVOF_AT(fluid.refinement->buffer)),
+      key("fluid.refinement.particles", flag(), "Fine wherever there are particles.",
+          DEMVOF_AT(fluid.refinement->particles)),
+      key("fluid.refinement.porosity_jump", at_least(0, at_most(1, number("-"))),
+          "Fine where the void fraction of two neighbour cells differs by more; 0: not asked.",
+          DEMVOF_AT(fluid.refinement->porosity_jump)),
+      key("fluid.refinement.max_cells", integer(1, 2e9), "No finer once the mesh has so many cells.",
+          DEMVOF_AT(fluid.refinement->max_cells)),
 
       required(key("particles.script", text(),
                    "The LIGGGHTS input script, counted from the case file's folder.",

@@ -13,11 +13,21 @@
 
 namespace demvof {
 
+/// Where foam_side makes the fine mesh finer than the case's own, and when coarser again.
+struct RefinementParameters {
+  int levels = 2;            // how often a cell of the case's mesh may be halved
+  int buffer = 2;            // rings of cells around the interface that are fine too
+  bool particles = false;    // fine wherever there are particles
+  double porosity_jump = 0;  // fine where eps of two neighbours differs by more, -; 0: not asked
+  int max_cells = 10000000;  // no finer beyond this
+};
+
 struct FluidParameters {
   std::string case_folder;  // an ordinary OpenFOAM interFoam case, relative to the case file
   int ranks = 1;            // MPI ranks of foam_side
   std::vector<std::string> prepare = {"blockMesh",
                                       "setFields"};  // OpenFOAM commands that make mesh and fields
+  std::optional<RefinementParameters> refinement;    // absent: the mesh stays as it is
 };
 
 struct ParticleParameters {

@@ -48,7 +48,7 @@ Scene scene(bool particles, bool porosity, bool surface_tension) {
 }
 
 void do_step(Flow& flow) {
-  refine_mesh(flow);
+  if (refine_mesh(flow)) settle_flux(flow);
   update_porosity(flow);
   while (outer_corrector(flow)) {
     advect_interface(flow);

@@ -56,7 +56,10 @@ TEST(RefinedMesh, PorousBed) {
     begin_window(*flow, flow->time.value() + 1e-3);
     set_porosity_target(*flow, eps);
     while (advance_clock(*flow)) {
-      if (refine_mesh(*flow)) ++changes;
+      if (refine_mesh(*flow)) {
+        settle_flux(*flow);
+        ++changes;
+      }
       update_porosity(*flow);
       while (outer_corrector(*flow)) {
         advect_interface(*flow);

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/refinement.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+#include "coupler/config/read_case.hpp"
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double pure = 0.01;         // alpha nearer to 0 or 1 than this is no interface
+constexpr double no_particle = 1e-6;  // solid fraction that counts as none
+constexpr const char* written_here = "// Written by foam_side from fluid.refinement of the case file.";
+
+/// Marks both cells of every face over which the field jumps by more than a limit.
+void mark_jumps(volScalarField& mark, const volScalarField& field, double limit) {
+  const Foam::fvMesh& mesh = mark.mesh();
+  forAll(mesh.owner(), face) {
+    const label owner = mesh.owner()[face], neighbour = mesh.neighbour()[face];
+    if (std::abs(field[owner] - field[neighbour]) > limit) mark[owner] = mark[neighbour] = 1;
+  }
+  forAll(field.boundaryField(), patch) {
+    const auto& at_patch = field.boundaryField()[patch];
+    if (!at_patch.coupled()) continue;
+    const scalarField there(at_patch.patchNeighbourField());
+    const Foam::labelUList& cells = at_patch.patch().faceCells();
+    forAll(cells, i) if (std::abs(field[cells[i]] - there[i]) > limit) mark[cells[i]] = 1;
+  }
+}
+
+/// Marks the neighbours of marked cells.
+void add_ring(volScalarField& mark) {
+  mark.correctBoundaryConditions();
+  const scalarField before(mark.primitiveField());
+  const Foam::fvMesh& mesh = mark.mesh();
+  forAll(mesh.owner(), face) {
+    const label owner = mesh.owner()[face], neighbour = mesh.neighbour()[face];
+    if (before[owner] > 0) mark[neighbour] = 1;
+    if (before[neighbour] > 0) mark[owner] = 1;
+  }
+  for (const auto& at_patch : mark.boundaryField()) {
+    if (!at_patch.coupled()) continue;
+    const scalarField there(at_patch.patchNeighbourField());
+    const Foam::labelUList& cells = at_patch.patch().faceCells();
+    forAll(cells, i) if (there[i] > 0) mark[cells[i]] = 1;
+  }
+}
+
+}  // namespace
+
+void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters) {
+  const std::filesystem::path file = fluid_case / "constant" / "dynamicMeshDict";
+  std::string first_line;
+  if (std::ifstream there(file); there && std::getline(there, first_line) && first_line != written_here)
+    throw InputError(
+        fmt::format("fluid.refinement: the fluid case says in constant/dynamicMeshDict how its mesh changes; "
+                    "remove that file or the section fluid.refinement"));
+  std::ofstream out(file);
+  // OpenFOAM takes the mean of the marks around a point and refines the cells of points above the lower
+  // level: the marked cells and one ring. A ring of hysteresis (nBufferLayers) keeps what was fine.
+  // Fluxes on new faces are rebuilt by this program: "none".
+  out << written_here
+      << "\nFoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }\n"
+      << fmt::format(
+             "dynamicFvMesh dynamicRefineFvMesh;\nrefineInterval 1;\nfield refinementMark;\n"
+             "lowerRefineLevel 0.01;\nupperRefineLevel 10;\nunrefineLevel 0.5;\nnBufferLayers 1;\n"
+             "maxRefinement {};\nmaxCells {};\ndumpLevel true;\n",
+             parameters.levels, parameters.max_cells)
+      << "correctFluxes ( (phi none) (phi_0 none) (rhoPhi none) (nHatf none) (ghf none) (Uf none)\n"
+         "    (alphaPhi0.water none) );\n";
+  if (!out.flush()) throw InputError(fmt::format("fluid.refinement: {} cannot be written", file.string()));
+}
+
+Refinement::Refinement(const Foam::fvMesh& mesh, const RefinementParameters& given)
+    : parameters(given),
+      mark(Foam::IOobject("refinementMark", mesh.time().timeName(), mesh), mesh,
+           dimensionedScalar(Foam::dimless, Foam::Zero), Foam::zeroGradientFvPatchScalarField::typeName) {}
+
+bool Refinement::due(const Flow& flow) {
+  crossed += flow.clock.interface_courant;
+  if (!first && crossed < 0.5 * parameters.buffer) return false;
+  crossed = 0;
+  return true;
+}
+
+void Refinement::set_marks(const Flow& flow) {
+  mark.primitiveFieldRef() = 0;
+  if (flow.scene.interface_advection) {
+    forAll(mark, cell) if (flow.alpha[cell] > pure && flow.alpha[cell] < 1 - pure) mark[cell] = 1;
+    mark_jumps(mark, flow.alpha, pure);
+  }
+  if (flow.porosity) {
+    const volScalarField& eps = flow.porosity->eps;
+    if (parameters.particles) forAll(mark, cell) if (eps[cell] < 1 - no_particle) mark[cell] = 1;
+    if (parameters.porosity_jump > 0) mark_jumps(mark, eps, parameters.porosity_jump);
+  }
+  for (int ring = 1; ring < parameters.buffer; ++ring) add_ring(mark);  // OpenFOAM adds the last one
+  mark.correctBoundaryConditions();
+}
+
+}  // namespace demvof

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "coupler/config/parameters.hpp"
+#include "foam_side/openfoam.hpp"
+
+namespace demvof {
+
+struct Flow;
+
+/// Writes the dynamicMeshDict that makes OpenFOAM refine the mesh by the marks below. Before the case is
+/// opened, on one rank. Throws InputError when the case has such a file of its own.
+void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters);
+
+/// Where the mesh has to be fine, and when it is looked at again.
+///
+/// Marked are cells with 0.01 < alpha < 0.99, both cells of a face over which alpha jumps by more than 0.01
+/// and, as the case asks, cells with particles and both cells of a face over which eps jumps; then rings of
+/// neighbours. The mesh is renewed before the interface has passed half of the rings: when the sum of the
+/// interface's Courant numbers since the last time reaches half their number.
+struct Refinement {
+  Refinement(const Foam::fvMesh& mesh, const RefinementParameters& parameters);
+
+  RefinementParameters parameters;
+  volScalarField mark;         // "refinementMark": 1 where the mesh has to be fine, 0 elsewhere
+  double crossed = 0;          // cells that the interface may have crossed since the last look
+  bool first = true;           // the mesh has not been looked at yet
+  long changes = 0;            // of the mesh, over the run
+  double worst_imbalance = 1;  // largest number of cells on a rank over the mean, over the run
+
+  bool due(const Flow& flow);  // true when the mesh has to be looked at in this step
+  void set_marks(const Flow& flow);
+};
+
+}  // namespace demvof
