@@ -125,8 +125,7 @@ class CommandLine {
     CLI::App* command = add("study", "error against run time of several runs", study_manual,
                             [this] { return study_command(study_); });
     command->add_option("STUDY", study_.study_file, "The study file (YAML)")->required()->type_name("");
-    command
-        ->add_option("--out", study_.out, "Folder of the runs; default: run_STUDY, beside the study file")
+    command->add_option("--out", study_.out, "Folder of the runs; default: run_STUDY, beside the study file")
         ->type_name("DIR");
     command->add_option("--only", study_.only, "Make the runs of this row only; may be repeated")
         ->type_name("ROW")

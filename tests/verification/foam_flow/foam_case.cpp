@@ -27,7 +27,11 @@ void FoamCase::run(const std::string& program) const {
   if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
 }
 
-std::unique_ptr<Flow> FoamCase::open(const Scene& scene) const {
+std::unique_ptr<Flow> FoamCase::open(const Scene& scene, const RefinementParameters* refinement) const {
+  if (refinement) {
+    files::remove(folder_ + "/constant/dynamicMeshDict");
+    write_mesh_dictionary(folder_, *refinement);
+  }
   Foam::messageStream::level = 0;
   std::string words[] = {"foam_flow_test", "-case", folder_};
   char* pointers[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
@@ -36,7 +40,7 @@ std::unique_ptr<Flow> FoamCase::open(const Scene& scene) const {
   Foam::argList::noBanner();
   // Never destroyed: its destructor would end the process with exit code 0.
   const auto* const args = new Foam::argList(argc, argv);
-  return open_flow(*args, scene);
+  return open_flow(*args, scene, refinement);
 }
 
 Scene scene(bool particles, bool porosity, bool surface_tension) {

@@ -22,7 +22,8 @@ class FoamCase {
   const std::string& folder() const { return folder_; }
   /// Runs an OpenFOAM program on the case; throws if it fails.
   void run(const std::string& program) const;
-  std::unique_ptr<Flow> open(const Scene& scene) const;
+  /// refinement: the mesh refines as fluid.refinement of a case file says.
+  std::unique_ptr<Flow> open(const Scene& scene, const RefinementParameters* refinement = nullptr) const;
 
  private:
   std::string folder_;
