@@ -1,115 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
-// Verification row averaging_kernels: what every averaging kernel must keep, and what tells them apart.
-
-#include <gtest/gtest.h>
-#include <mpi.h>
+#include "tests/mpi/averaging_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <memory>
 #include <numeric>
 #include <random>
 
 #include "coupler/config/enum_names.hpp"
-#include "coupler/grid/touched_cells.hpp"
-#include "coupler/transfer/diffusion.hpp"
-#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/axis_kernel.hpp"
 #include "coupler/transfer/sphere_cells.hpp"
 #include "tests/support/mpi_main.hpp"
-#include "tests/support/record.hpp"
 
-namespace demvof {
+namespace demvof::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const Kernel all_kernels[] = {Kernel::centre, Kernel::volume, Kernel::linear, Kernel::gaussian,
                               Kernel::diffusion};
-
-struct Set {  // of particles
-  std::vector<Vec3> position;
-  std::vector<double> radius, value;  // m; what each deposits
-  void add(const Vec3& x, double r, double v = 1) {
-    position.push_back(x);
-    radius.push_back(r);
-    value.push_back(v);
-  }
-};
-
-AveragingParameters averaging(Kernel kernel, double bandwidth) {
-  AveragingParameters parameters;
-  parameters.kernel = kernel;
-  parameters.bandwidth = bandwidth;
-  return parameters;
-}
-
-/// Deposit and sample as dem_side does both, particles dealt out to the ranks of comm in turn.
-class Averager {
- public:
-  Averager(MPI_Comm comm, const BulkGrid& grid, const AveragingParameters& parameters, const Set& all)
-      : comm_(comm), grid_(grid), partition_(grid.cell_count(), size()), particles_(all.position.size()) {
-    for (int i = rank(); i < particles_; i += size()) {
-      mine_.add(all.position[i], all.radius[i], all.value[i]);
-      number_.push_back(i);
-    }
-    weights_ = kernel_weights(grid, parameters, mine_.position, mine_.radius);
-    touched_ = std::make_unique<TouchedCells>(comm, partition_, weights_.cells);
-    if (parameters.kernel == Kernel::diffusion)
-      diffusion_ = std::make_unique<Diffusion>(comm, grid, partition_, parameters.bandwidth);
-  }
-  /// All cells, on every rank.
-  std::vector<double> deposit() const {
-    std::vector<double> touched(weights_.cells.size());
-    demvof::deposit(weights_, mine_.value.data(), 1, touched.data());
-    CellValues<double> owned = touched_->sum_to_owners(touched);
-    if (diffusion_) owned = diffusion_->spread(owned);
-    std::vector<double> all(grid_.cell_count(), 0.0);
-    for (std::size_t i = 0; i < owned.cells.size(); ++i) all[owned.cells[i]] = owned.values[i];
-    return sum(all);
-  }
-  /// cells: all of them. All particles, on every rank.
-  std::vector<double> sample(const std::vector<double>& cells) const {
-    CellValues<double> owned;
-    for (CellId cell = partition_.begin(rank()); cell < partition_.end(rank()); ++cell) {
-      owned.cells.push_back(cell);
-      owned.values.push_back(cells[cell]);
-    }
-    if (diffusion_) owned = diffusion_->gather(owned);
-    const std::vector<double> fetched = touched_->fetch_from_owners(owned, 0.0);
-    std::vector<double> sampled(number_.size()), all(particles_, 0.0);
-    demvof::sample(weights_, fetched.data(), 1, sampled.data());
-    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = sampled[i];
-    return sum(all);
-  }
-
- private:
-  int rank() const {
-    int rank;
-    MPI_Comm_rank(comm_, &rank);
-    return rank;
-  }
-  int size() const {
-    int size;
-    MPI_Comm_size(comm_, &size);
-    return size;
-  }
-  std::vector<double> sum(std::vector<double> all) const {
-    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
-    return all;
-  }
-
-  MPI_Comm comm_;
-  BulkGrid grid_;
-  BulkPartition partition_;
-  int particles_;
-  Set mine_;
-  std::vector<int> number_;
-  KernelWeights weights_;
-  std::unique_ptr<TouchedCells> touched_;
-  std::unique_ptr<Diffusion> diffusion_;
-};
 
 std::vector<double> deposited(const BulkGrid& grid, const AveragingParameters& parameters, const Set& set) {
   return Averager(MPI_COMM_SELF, grid, parameters, set).deposit();
@@ -154,31 +61,6 @@ double share_by_chords(const Vec3& centre, double radius, const Vec3& low, const
     }
   return sum * (x1 - x0) * (y1 - y0) / n / n / (4 * pi / 3 * std::pow(radius, 3));
 }
-
-class AveragingKernels : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    int rank;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == 0)
-      record_ = new test::Record("averaging_kernels", "Averaging kernels",
-                                 "Shares of particles in bulk cells for each kernel: nothing lost at walls, "
-                                 "corners and beyond them for "
-                                 "diameters up to three cells; moments away from walls; an even set stays "
-                                 "even at walls; a particle that "
-                                 "crosses a cell face changes the void fraction continuously (all kernels "
-                                 "but centre); sampling is the "
-                                 "transpose of depositing; the same numbers on 1 to 4 ranks.",
-                                 "tests/Alltest -- -R averaging_kernels");
-  }
-  static void TearDownTestSuite() { delete record_; }
-  /// On rank 0 alone; every rank has the same numbers.
-  static void record(const std::function<void(test::Record&)>& write) {
-    if (record_) write(*record_);
-  }
-  static test::Record* record_;
-};
-test::Record* AveragingKernels::record_ = nullptr;
 
 TEST_F(AveragingKernels, NothingIsLostAndNothingDependsOnTheRanks) {
   for (const Kernel kernel : all_kernels) {
@@ -231,7 +113,7 @@ TEST_F(AveragingKernels, NothingIsLostAndNothingDependsOnTheRanks) {
       }
     }
     EXPECT_LE(worst_difference, 1e-13);
-    record([&](test::Record& r) {
+    record([&](Record& r) {
       const std::string name = name_of(kernel);
       r.at_most(name + ": sum of all cells over what was deposited, less 1", worst_sum, 1e-12);
       r.at_least(name + ": lowest value of a cell", lowest, 0);
@@ -272,7 +154,7 @@ TEST_F(AveragingKernels, VolumeSharesAreTheCommonVolume) {
         }
     EXPECT_NEAR(sum, 1, 2e-15);
   }
-  record([&](test::Record& r) {
+  record([&](Record& r) {
     r.at_most("volume: share against numerical integration (midpoint rule, 1000^2 chords)", worst, 5e-6);
   });
 }
@@ -304,7 +186,7 @@ TEST_F(AveragingKernels, Moments) {
       }
       worst_mean = std::max(worst_mean, std::abs(mean));
     }
-    record([&](test::Record& r) {
+    record([&](Record& r) {
       const std::string name = name_of(kernel);
       const std::string first = name + ": centre of the shares less that of the particle, in cells";
       if (kernel == Kernel::linear || kernel == Kernel::diffusion)
@@ -329,7 +211,7 @@ TEST_F(AveragingKernels, AnEvenSetStaysEvenAtWalls) {
     double worst = 0;
     for (const double value : deposited(grid, averaging(kernel, 2.5), set))
       worst = std::max(worst, std::abs(value / 64 - 1));
-    record([&](test::Record& r) {
+    record([&](Record& r) {
       r.at_most(name_of(kernel) + ": unevenness of an even set between walls", worst, 1e-12);
     });
   }
@@ -373,7 +255,7 @@ TEST_F(AveragingKernels, CrossingACellFace) {
       if (share.size() > 1)
         largest_rate = std::max(largest_rate, std::abs(share.back() - share.end()[-2]) / 0.01);
     }
-    record([&](test::Record& r) {
+    record([&](Record& r) {
       const std::string name = name_of(kernel);
       const std::string jump = name + ": largest change of a share in a step of 2e-4 cells";
       if (kernel == Kernel::centre)
@@ -399,7 +281,7 @@ TEST_F(AveragingKernels, SpheresLargerThanACell) {
   for (const Kernel kernel : all_kernels) {
     const std::vector<double> cells = deposited(grid, averaging(kernel, 18), set);
     const double largest = *std::max_element(cells.begin(), cells.end());
-    record([&](test::Record& r) {
+    record([&](Record& r) {
       const std::string name =
           name_of(kernel) + ": solid fraction of the fullest cell, sphere of three cells";
       if (kernel == Kernel::volume)
@@ -410,99 +292,5 @@ TEST_F(AveragingKernels, SpheresLargerThanACell) {
   }
 }
 
-TEST_F(AveragingKernels, DiffusionLeavesOutWhatTheMeshDoesNotFill) {
-  const BulkGrid grid({0, 0, 0}, {6, 5, 7}, {6, 5, 7}, {false, true, false});
-  int rank, ranks;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const BulkPartition partition(grid.cell_count(), ranks);
-  Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 3);
-  std::mt19937 random(7);
-  std::uniform_real_distribution<> uniform(0, 1);
-  CellValues<double> share, given, field;
-  for (CellId cell = 0; cell < grid.cell_count(); ++cell) {
-    const double open = uniform(random) < 0.5 ? 1 : std::max(0.0, uniform(random) - 0.3);
-    const double value = uniform(random), other = uniform(random);
-    if (partition.owner(cell) != rank) continue;
-    share.cells.push_back(cell);
-    share.values.push_back(open);
-    given.values.push_back(value);
-    field.values.push_back(other);
-  }
-  given.cells = field.cells = share.cells;
-  diffusion.set_open_shares(share);
-  const std::vector<double> spread = diffusion.spread(given).values,
-                            gathered = diffusion.gather(field).values;
-  double sums[4] = {};  // given, spread, <spread, field>, <given, gathered>
-  for (std::size_t i = 0; i < spread.size(); ++i) {
-    EXPECT_EQ(spread[i] > 0, share.values[i] > 0) << "nothing goes where nothing is open";
-    sums[0] += given.values[i];
-    sums[1] += spread[i];
-    sums[2] += spread[i] * field.values[i];
-    sums[3] += given.values[i] * gathered[i];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-  EXPECT_NEAR(sums[2] / sums[3], 1, 1e-12);
-  record([&](test::Record& r) {
-    r.at_most("diffusion, cells in part outside the mesh: sum over what was deposited, less 1",
-              std::abs(sums[1] / sums[0] - 1), 1e-12);
-    r.at_most("diffusion, cells in part outside the mesh: sample against transposed deposit",
-              std::abs(sums[2] / sums[3] - 1), 1e-12);
-  });
-}
-
-TEST_F(AveragingKernels, DiffusionIsMirroredAtWallsAndNearTheGaussian) {
-  std::mt19937 random(2);
-  for (const double strength : {1e-3, 0.3, 40.0, 1e5})
-    for (const int n : {1, 2, 7, 50}) {
-      std::vector<double> row(n), twice(2 * n);
-      for (int i = 0; i < n; ++i)
-        row[i] = twice[i] = twice[2 * n - 1 - i] = std::uniform_real_distribution<>(0, 1)(random);
-      const std::vector<double> before = row;
-      RowDiffusion(n, strength, false).step(row.data(), 1);
-      RowDiffusion(2 * n, strength, true).step(twice.data(), 1);
-      for (int i = 0; i < n; ++i) {
-        EXPECT_NEAR(row[i], twice[i], 1e-13);
-        const double left = row[std::max(i - 1, 0)], right = row[std::min(i + 1, n - 1)];
-        EXPECT_NEAR((1 + 2 * strength) * row[i] - strength * (left + right), before[i],
-                    1e-13 * (1 + strength));
-      }
-    }
-
-  // Distance from the Gaussian, half the integral of |difference|, on cells of a tenth of a standard
-  // deviation.
-  const int half = 60, n = 2 * half + 1;
-  std::vector<double> steps, one, three;
-  for (const int count : {1, 2, 3, 4, 6, 8, 12, 16}) {
-    std::vector<double> row(n, 0.0), gauss(n);
-    row[half] = 1;
-    for (int step = 0; step < count; ++step) RowDiffusion(n, 50.0 / count, false).step(row.data(), 1);
-    for (int i = 0; i < n; ++i)
-      gauss[i] = 0.1 / std::sqrt(2 * pi) * std::exp(-0.005 * (i - half) * (i - half));
-    double along = 0, in_space = 0;
-    for (int i = 0; i < n; ++i) {
-      along += 0.5 * std::abs(row[i] - gauss[i]);
-      for (int j = 0; j < n; ++j)
-        for (int k = 0; k < n; ++k)
-          in_space += 0.5 * std::abs(row[i] * row[j] * row[k] - gauss[i] * gauss[j] * gauss[k]);
-    }
-    steps.push_back(count);
-    one.push_back(along);
-    three.push_back(in_space);
-    if (count == diffusion_steps)
-      record([&](test::Record& r) {
-        r.at_most("diffusion: part of a particle that is elsewhere than in the Gaussian, in space", in_space,
-                  0.15);
-      });
-  }
-  record([&](test::Record& r) {
-    r.note("diffusion: implicit steps", diffusion_steps);
-    r.curve("diffusion: distance from the Gaussian", "implicit steps", "part that is elsewhere, -",
-            "along an axis", steps, one, "xy");
-    r.curve("diffusion: distance from the Gaussian", "implicit steps", "part that is elsewhere, -",
-            "in space", steps, three, "xy");
-  });
-}
-
 }  // namespace
-}  // namespace demvof
+}  // namespace demvof::test
