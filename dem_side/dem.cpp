@@ -176,8 +176,13 @@ long Dem::inserted() const {
   return inserted;
 }
 
-bool Dem::has_outlet() const {
-  return liggghts_->modify->find_fix_style("massflow/mesh", 0) != nullptr;
+long Dem::taken_out() const {
+  constexpr int deleted = 5;  // of the fix's vector: particles it has deleted
+  long taken = 0;
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    if (std::string_view(fix.style) == "massflow/mesh") taken += std::lround(fix.compute_vector(deleted));
+  });
+  return taken;
 }
 
 void Dem::add_fix(std::vector<std::string> words) {

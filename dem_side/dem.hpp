@@ -77,7 +77,7 @@ class Dem {
   ParticleCensus census() const;   // collective
   bool inserts_particles() const;  // the script has an insertion that is not over yet
   long inserted() const;           // particles that its insertions have put in so far, all ranks
-  bool has_outlet() const;         // the script takes particles out on purpose (fix massflow/mesh)
+  long taken_out() const;          // particles that its outlets (fix massflow/mesh) have deleted so far
 
   /// One value row per particle that goes with it from rank to rank; rows of new particles are 0.
   /// Returned pointers: local particle -> row, valid until the next DEM step.

@@ -59,13 +59,15 @@ Vec3 half_step_momentum(const Dem& dem) {
   return momentum;
 }
 
-Report::Report(const Dem& dem) : dem_(dem), count_(dem.census().count), inserted_before_(dem.inserted()) {}
+Report::Report(const Dem& dem) : dem_(dem), count_(dem.census().count), inserted_before_(dem.inserted()), left_before_(dem.taken_out()) {}
 
-// A particle that is gone without an outlet in the script has slipped through a wall or left the box.
+// A particle that is gone and that no outlet of the script has taken has slipped through a wall or left the
+// box.
 void Report::count_changes(long now) {
-  const long inserted = dem_.inserted() - inserted_before_;
+  const long inserted = dem_.inserted() - inserted_before_, left = dem_.taken_out() - left_before_;
   const long gone = count_ + (inserted - inserted_) - now;
-  (dem_.has_outlet() ? left_ : lost_) += gone;
+  lost_ += gone - (left - left_);
+  left_ = left;
   inserted_ = inserted;
   count_ = now;
 }

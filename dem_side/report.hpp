@@ -57,6 +57,7 @@ class Report {
   const Dem& dem_;
   long count_ = 0;                           // at the end of the last window
   long inserted_before_ = 0;                 // by the script's insertions, before the coupled run
+  long left_before_ = 0;                     // through the script's outlets, before the coupled run
   long inserted_ = 0, left_ = 0, lost_ = 0;  // since its start
 };
 

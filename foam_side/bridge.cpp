@@ -6,6 +6,15 @@
 //
 // with w = eps rho (coupling.sharing: mass; every fine cell of a bulk cell gets the same
 // acceleration) or w = 1 (volume).
+//
+// In a fine cell that lies in several bulk cells u and grad p have a linear profile (conservative), so that
+// its pieces differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
+// centre of the bulk cell (sample_fluid.hpp). Either way the particles feel another velocity than the mean
+// that the implicit part of the force works on, sum w V u_f / W; the difference is taken from its reference:
+//
+//   F_b = -J/dt + C (u_ref - (u_told - u_mean) - u)
+//
+// and a steady state is still not shifted by it. Impulses are exchanged by pieces with every mapping.
 
 #include "foam_side/bridge.hpp"
 
@@ -16,7 +25,9 @@
 
 #include "coupler/link/errors.hpp"
 #include "coupler/link/mpi_check.hpp"
+#include "foam_side/cell_field.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "leastSquaresGrad.H"
 
 namespace demvof {
 
@@ -32,6 +43,7 @@ constexpr double full = 1 - 1e-6;
 /// Sums over the fine cells of a bulk cell that give its BulkFluid.
 struct FluidSums {
   Vec3 weighted_velocity;  // sum w V u
+  Vec3 weighted_rise;      // sum w V offset . grad u
   double weight = 0;       // sum w V
   Vec3 pressure_gradient;  // sum V grad p
   double eps_rho = 0;      // sum V eps rho
@@ -56,6 +68,12 @@ BulkFluid means(const FluidSums& sum) {
   return cell;
 }
 
+tmp<Foam::tensorField> slopes(const volVectorField& field) {
+  const tmp<Foam::volTensorField> slope =
+      Foam::fv::leastSquaresGrad<vector>(field.mesh()).calcGrad(field, "slopeOfBulk");
+  return tmp<Foam::tensorField>::New(slope().primitiveField());
+}
+
 }  // namespace
 
 Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid,
@@ -65,15 +83,21 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
 }
 
 void Bridge::remap() {
-  remap_ =
-      std::make_unique<Remap>(world_, grid_, partition_, fine_mesh(flow_.mesh), parameters_.coupling.mapping);
+  const MappingParameters& mapping = parameters_.coupling.mapping;
+  remap_ = std::make_unique<Remap>(world_, grid_, partition_, fine_mesh(flow_.mesh), mapping);
+  if (interpolates(mapping.to_bulk))
+    sampler_ = std::make_unique<FluidSampler>(flow_.mesh, *remap_, mapping.to_bulk);
+  reconstructs_ =
+      mapping.to_bulk == Mapping::conservative && Foam::returnReduce(remap_->straddles(), Foam::orOp<bool>());
   distribute();
 }
 
 CellValues<double> Bridge::open_shares() const {
-  std::vector<double> here(remap_->cells().cells().size(), 0.0);
-  for (const Piece& piece : remap_->pieces()) here[piece.slot] += piece.volume;
-  const CellValues<double> met = remap_->cells().sum_to_owners(here);
+  const Remap cut(world_, grid_, partition_, fine_mesh(flow_.mesh),
+                  {Mapping::nearest, Mapping::conservative});
+  std::vector<double> here(cut.cells().cells().size(), 0.0);
+  for (const Piece& piece : cut.pieces()) here[piece.slot] += piece.volume;
+  const CellValues<double> met = cut.cells().sum_to_owners(here);
   CellValues<double> open;
   int rank;
   check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
@@ -95,6 +119,7 @@ void Bridge::take(CellValues<BulkParticles> particles) {
   solid_volume_ = {owned_.cells, std::vector<double>(owned_.values.size())};
   for (std::size_t i = 0; i < owned_.values.size(); ++i)
     solid_volume_.values[i] = owned_.values[i].solid_volume;
+  felt_shift_ = shift_;
   distribute();
 }
 
@@ -103,18 +128,22 @@ void Bridge::distribute() {
   const CellValues<double> marks{owned_.cells, std::vector<double>(owned_.cells.size(), 1.0)};
   const std::vector<double> active = cells.fetch_from_owners(marks, 0.0);
   touched_ = cells.fetch_from_owners(owned_, BulkParticles{});
+  if (sampler_ || reconstructs_) felt_shift_here_ = cells.fetch_from_owners(felt_shift_, Vec3{});
   pieces_.clear();
   std::copy_if(remap_->pieces().begin(), remap_->pieces().end(), std::back_inserter(pieces_),
                [&](const Piece& piece) { return active[piece.slot] > 0; });
   coefficient_part_.assign(pieces_.size(), 0.0);
 }
 
-scalarField Bridge::void_fraction_of(const CellValues<double>& solid_volume) const {
+scalarField Bridge::void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const {
   const std::vector<double> solid_fraction =
       remap_->to_fine(remap_->cells().fetch_from_owners(solid_volume, 0.0), 1);
   scalarField eps(flow_.mesh.nCells());
+  spread = {};
   forAll(eps, cell) {
-    eps[cell] = 1 - solid_fraction[cell];
+    spread.negative_cells += solid_fraction[cell] < 0;
+    eps[cell] = 1 - std::max(solid_fraction[cell], 0.0);
+    spread.solid_volume += (1 - eps[cell]) * flow_.mesh.V()[cell];
     if (eps[cell] >= smallest_void_fraction) continue;
     const vector& at = flow_.mesh.C()[cell];
     throw RunError(fmt::format(
@@ -123,6 +152,8 @@ scalarField Bridge::void_fraction_of(const CellValues<double>& solid_volume) con
         "coupling.averaging.maximum_solid_fraction.",
         eps[cell], at.x(), at.y(), at.z(), smallest_void_fraction));
   }
+  Foam::reduce(spread.solid_volume, Foam::sumOp<double>());
+  Foam::reduce(spread.negative_cells, Foam::sumOp<long>());
   return eps;
 }
 
@@ -150,6 +181,7 @@ void Bridge::spread_sources() {
     const double response =
         fluid_response(coupling.schedule, touched_[slot], total[slot].mass, coupling.window);
     sources[slot] = fluid_source(coupling.exchange, touched_[slot], response, coupling.window);
+    if (sampler_ || reconstructs_) sources[slot].reference_velocity -= felt_shift_here_[slot];
   }
 
   ParticleSource& source = *flow_.source;
@@ -214,6 +246,12 @@ CellValues<BulkFluid> Bridge::bulk_fluid() {
   const std::vector<double> weight = fine_weights();
   const Foam::vectorField gradient = pressure_gradient(flow_);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
+  tmp<Foam::tensorField> velocity_slope, gradient_slope;
+  if (reconstructs_) {
+    velocity_slope = slopes(flow_.U);
+    gradient_slope = slopes(
+        with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, gradient));
+  }
   std::vector<FluidSums> sums(touched_.size());
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
@@ -226,18 +264,48 @@ CellValues<BulkFluid> Bridge::bulk_fluid() {
     sum.eps_mu += eps_v * viscosity()[piece.fine];
     sum.eps += eps_v;
     sum.volume += v;
+    if (!reconstructs_) continue;
+    const vector offset = to_foam(piece.offset);
+    sum.weighted_rise += weight[piece.fine] * v * to_vec3(offset & velocity_slope()[piece.fine]);
+    sum.pressure_gradient += v * to_vec3(offset & gradient_slope()[piece.fine]);
   }
   const CellValues<FluidSums> owned = remap_->cells().sum_to_owners(sums);
   CellValues<BulkFluid> fluid;
+  shift_ = {};
   for (std::size_t i = 0; i < owned.cells.size(); ++i) {
     if (!(owned.values[i].volume > 0)) continue;
     fluid.cells.push_back(owned.cells[i]);
     fluid.values.push_back(means(owned.values[i]));
+    shift_.values.push_back(fluid.values.back().velocity);
+    fluid.values.back().velocity += owned.values[i].weighted_rise / owned.values[i].weight;
     if (const LeftOver* owed = find(left_over_, owned.cells[i]))
       fluid.values.back().left_over = owed->impulse;
   }
   left_over_ = {};
+  if (sampler_) sample_points(gradient, viscosity, fluid);
+  shift_.cells = fluid.cells;
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i)
+    shift_.values[i] = fluid.values[i].velocity - shift_.values[i];
   return fluid;
+}
+
+/// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds
+/// keeps its means.
+void Bridge::sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
+                           CellValues<BulkFluid>& fluid) const {
+  const CellValues<FluidSample> sums =
+      remap_->cells().sum_to_owners(sampler_->sample(flow_, gradient, viscosity));
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
+    while (sums.cells[at] != fluid.cells[i]) ++at;
+    const FluidSample& sum = sums.values[at];
+    if (sum.cells == 0) continue;
+    BulkFluid& cell = fluid.values[i];
+    cell.velocity = sum.velocity / sum.cells;
+    cell.pressure_gradient = sum.pressure_gradient / sum.cells;
+    cell.density = sum.density / sum.cells;
+    cell.viscosity = sum.viscosity / sum.cells;
+  }
 }
 
 Bridge::Impulses Bridge::impulses() const {

@@ -9,6 +9,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/remap.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/sample_fluid.hpp"
 
 namespace demvof {
 
@@ -33,9 +34,18 @@ class Bridge {
 
   /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
   /// particles leave no room for the fluid.
-  scalarField void_fraction() const { return void_fraction_of(solid_volume_); }
-  /// The same from what was taken the time before: at the begin of the present window.
-  scalarField void_fraction_before() const { return void_fraction_of(solid_volume_before_); }
+  scalarField void_fraction() { return void_fraction_of(solid_volume_, spread_); }
+  /// What the last void fraction came to, over all ranks.
+  struct Spread {
+    double solid_volume = 0;  // on the fine mesh, m3
+    long negative_cells = 0;  // fine cells in which an interpolation went below zero: they got none
+  };
+  const Spread& spread() const { return spread_; }
+  /// The void fraction from what was taken the time before: at the begin of the present window.
+  scalarField void_fraction_before() const {
+    Spread then;
+    return void_fraction_of(solid_volume_before_, then);
+  }
 
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk
   /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
@@ -65,7 +75,9 @@ class Bridge {
   };
   void return_left_over(CellValues<BulkParticles>& particles);
   void distribute();
-  scalarField void_fraction_of(const CellValues<double>& solid_volume) const;
+  scalarField void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const;
+  void sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
+                     CellValues<BulkFluid>& fluid) const;
   std::vector<double> fine_weights() const;
   double eps(int cell) const { return flow_.porosity ? flow_.porosity->eps[cell] : 1.0; }
 
@@ -75,13 +87,20 @@ class Bridge {
   BulkGrid grid_;
   BulkPartition partition_;
   std::unique_ptr<Remap> remap_;
-  CellValues<BulkParticles> owned_;  // as received
-  CellValues<LeftOver> left_over_;   // owned cells; not handed over yet
-  CellValues<double> solid_volume_;  // of these, m3
+  std::unique_ptr<FluidSampler> sampler_;  // only for a mapping to the bulk grid that takes values at points
+  bool reconstructs_ = false;              // pieces of a fine cell differ: a linear profile in the fine cells
+  CellValues<BulkParticles> owned_;        // as received
+  CellValues<LeftOver> left_over_;         // owned cells; not handed over yet
+  CellValues<double> solid_volume_;        // of these, m3
   CellValues<double> solid_volume_before_;
   std::vector<BulkParticles> touched_;    // per touched cell of the remap
   std::vector<Piece> pieces_;             // those in active bulk cells
   std::vector<double> coefficient_part_;  // per piece: its part of the fine cell's coefficient, -
+  // Velocity told to the particles minus the sharing's mean, m/s: last told; told to those that owned_ is
+  // of, per owned and per touched cell.
+  CellValues<Vec3> shift_, felt_shift_;
+  std::vector<Vec3> felt_shift_here_;
+  Spread spread_;
 };
 
 }  // namespace demvof

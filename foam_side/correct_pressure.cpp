@@ -10,6 +10,7 @@
 // zero for any void fraction and any drag.
 
 #include "foam_side/flow.hpp"
+#include "inletOutletFvPatchFields.H"
 
 namespace demvof {
 namespace {
@@ -38,6 +39,26 @@ tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField
   const Crowding& c = *flow.pressure_system.crowding;
   return tmp<surfaceScalarField>::New(
       "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
+}
+
+/// Makes what leaves a box without a pressure boundary fit what enters it. Through patches with a given
+/// velocity goes what it says: there flux still holds the push of particles beside the wall, which the wall's
+/// pressure gradient takes.
+void balance_boundary(Flow& flow, surfaceScalarField& flux) {
+  surfaceScalarField through("balanced", flux);
+  const auto given = [&flow](label patch) {
+    const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
+    return !at.coupled() && at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
+  };
+  forAll(flow.mesh.boundary(), patch) {
+    if (!given(patch)) continue;
+    Foam::fvsPatchScalarField& at = through.boundaryFieldRef()[patch];
+    at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
+    if (flow.porosity) at *= flow.pressure_system.crowding->eps_f.boundaryField()[patch];
+  }
+  Foam::adjustPhi(through, flow.U, flow.p_rgh);
+  forAll(flow.mesh.boundary(), patch) if (!given(patch))
+          flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
 }
 
 /// force: (face_force - grad p_rgh.S), N/m.
@@ -85,7 +106,7 @@ void correct_pressure(Flow& flow) {
       Foam::constrainHbyA(*system.inverse_diagonal * system.momentum->H(), flow.U, flow.p_rgh));
   const surfaceScalarField transported(fvc::flux(h) + *system.memory);
   surfaceScalarField phiHbyA(unforced_flux(flow, transported));
-  if (flow.p_rgh.needReference()) Foam::adjustPhi(phiHbyA, flow.U, flow.p_rgh);
+  if (flow.p_rgh.needReference()) balance_boundary(flow, phiHbyA);
   phiHbyA += mobility * flow.face_force();
 
   if (flow.porosity)

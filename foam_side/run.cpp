@@ -115,6 +115,8 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
     done.planned = windows;
     done.explicit_impulse = bridge.impulses().explicit_part;
     done.implicit_impulse = bridge.impulses().implicit_part;
+    if (flow.porosity) done.fine_solid_volume = bridge.spread().solid_volume;
+    done.negative_cells = bridge.spread().negative_cells;
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.particles = json::parse(link.swap_text("{}"));
     go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);

@@ -122,22 +122,38 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
   if (!window.particles.is_null()) {
     const json& p = window.particles;
     const CouplingParameters& coupling = parameters_.coupling;
-    balance.drag_to_particles = vec3(p.at("drag_impulse"));
-    balance.left_over_to_particles = vec3(p.at("left_over_given"));
+    const long came = p.at("inserted"), gone = p.at("left").get<long>() + p.at("lost").get<long>();
+    const bool some_went = gone != gone_;
+    balance.particles_changed = some_went || came != came_;
+    came_ = came;
+    gone_ = gone;
+    const Vec3 drag_felt = vec3(p.at("drag_impulse")), left_over_given = vec3(p.at("left_over_given"));
+    balance.drag_to_particles = some_went ? vec3(p.at("drag_impulse_bulk")) : drag_felt;
+    balance.left_over_to_particles = left_over_given;
     balance.explicit_to_fluid = window.explicit_impulse;
     balance.implicit_to_fluid = window.implicit_impulse;
     unplaced_ += vec3(p.at("left_over_unplaced"));
     if (hands_back_left_over(coupling.exchange)) balance.pending = unplaced_ - window.implicit_impulse;
     if (coupling.schedule == Schedule::concurrent && pays_drag_impulse(coupling.exchange))
       balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
+    // The fluid gets the drag of those that are still there. What one that left received in its last window,
+    // and what it was still owed, has gone with it.
+    if (some_went) {
+      balance.left_over_to_particles = pending_ - balance.pending - balance.drag_to_particles -
+                                       balance.explicit_to_fluid - balance.implicit_to_fluid;
+      limits_.gone_impulse += norm(drag_felt - balance.drag_to_particles) +
+                              norm(balance.left_over_to_particles - left_over_given);
+    }
     balance.particle_momentum = vec3(p.at("momentum"));
-    balance.external = vec3(p.at("drag_impulse")) + balance.left_over_to_particles +
-                       vec3(p.at("pressure_impulse")) + vec3(p.at("contact_impulse")) +
-                       vec3(p.at("gravity_impulse")) - vec3(p.at("held_impulse")) +
-                       (balance.pending - pending_);
+    balance.external = drag_felt + left_over_given + vec3(p.at("pressure_impulse")) +
+                       vec3(p.at("contact_impulse")) + vec3(p.at("gravity_impulse")) -
+                       vec3(p.at("held_impulse")) + (balance.pending - pending_);
     pending_ = balance.pending;
     balance.bulk_solid_volume = p.at("solid_volume_bulk");
     balance.particle_volume = p.at("solid_volume");
+    // With the concurrent schedule the mesh has the particles of the window before.
+    if (!(balance.particles_changed && coupling.schedule == Schedule::concurrent))
+      balance.fine_solid_volume = window.fine_solid_volume;
   }
   ledger_->close(balance);
   const ConservationErrors& worst = ledger_->worst();
@@ -179,6 +195,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       limits_.relieved_volume += p.at("relieved_volume").get<double>();
       limits_.unplaced_volume = std::max(limits_.unplaced_volume, p.at("unplaced_volume").get<double>());
       limits_.waiting_particles += p.at("waiting_for_fluid").get<long>();
+      limits_.negative_cells += window.negative_cells;
       limits_.unplaced_left_over += norm(vec3(p.at("left_over_unplaced")));
       last_particles_ = p;
     }
@@ -253,9 +270,17 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
     lines.push_back(
         fmt::format("no room on the bulk grid for up to {:.3g} m3 above the maximum solid fraction",
                     limits_.unplaced_volume));
+  if (limits_.negative_cells > 0)
+    lines.push_back(fmt::format(
+        "coupling.mapping.to_fine interpolated a solid fraction below 0, {} times: it was taken as "
+        "0, and conservation.solid_volume has the error",
+        limits_.negative_cells));
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));
+  if (limits_.gone_impulse > 0)
+    lines.push_back(fmt::format("impulse of {:.3g} N s went with particles in the window in which they left",
+                                limits_.gone_impulse));
   if (limits_.unplaced_left_over > 0)
     lines.push_back(fmt::format("left-over impulse of {:.3g} N s found no particle to receive it",
                                 limits_.unplaced_left_over));

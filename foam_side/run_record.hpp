@@ -47,6 +47,8 @@ class RunRecord {
     long number = 0, planned = 0;             // planned 0: not known
     Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
     long active_cells = 0;                    // of the bulk grid
+    std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
+    long negative_cells = 0;                  // fine cells whose solid fraction was interpolated below 0
     nlohmann::json particles;                 // dem_side's report; null without particles
     FluidSeconds seconds;
     std::int64_t exchanged_bytes = 0, exchanged_cells = 0;
@@ -73,15 +75,16 @@ class RunRecord {
   double initial_potential_ = 0;  // J
   Vec3 pending_;                  // received by one side, not yet by the other, N s
   Vec3 unplaced_;                 // of this, what found no particle at all
+  long came_ = 0, gone_ = 0;      // particles inserted; left and lost; up to the last window
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
   nlohmann::json last_particles_;
 
   /// Limits that acted, over the windows so far.
   struct Limits {
-    long relieved_cells = 0, waiting_particles = 0;
+    long relieved_cells = 0, waiting_particles = 0, negative_cells = 0;
     double relieved_volume = 0, unplaced_volume = 0;  // m3
-    double unplaced_left_over = 0;                    // N s
+    double unplaced_left_over = 0, gone_impulse = 0;  // N s
   } limits_;
 };
 

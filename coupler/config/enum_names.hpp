@@ -34,6 +34,9 @@ inline const EnumNames<Kernel> enum_names<Kernel> = {{Kernel::centre, "centre"},
                                                      {Kernel::diffusion, "diffusion"}};
 template <>
 inline const EnumNames<Mapping> enum_names<Mapping> = {{Mapping::nearest, "nearest"},
+                                                       {Mapping::inverse_distance, "inverse_distance"},
+                                                       {Mapping::cell_point, "cell_point"},
+                                                       {Mapping::cell_point_face, "cell_point_face"},
                                                        {Mapping::conservative, "conservative"}};
 template <>
 inline const EnumNames<Sharing> enum_names<Sharing> = {{Sharing::volume, "volume"}, {Sharing::mass, "mass"}};

@@ -226,9 +226,14 @@ std::vector<Key> make_keys() {
           "Of a bulk cell; what is above moves to the neighbours, and is counted.",
           DEMVOF_AT(coupling.averaging.maximum_solid_fraction)),
 
-      key("coupling.mapping.to_fine", one_of<Mapping>(), "From the bulk grid to the fine mesh.",
+      key("coupling.mapping.to_fine", one_of<Mapping>(),
+          "The void fraction, from the bulk grid to the fine mesh; nearest and conservative keep the solid "
+          "volume. Forces are always shared without loss.",
           DEMVOF_AT(coupling.mapping.to_fine)),
-      key("coupling.mapping.to_bulk", one_of<Mapping>(), "From the fine mesh to the bulk grid.",
+      key("coupling.mapping.to_bulk", one_of<Mapping>(),
+          "The fluid, from the fine mesh to the bulk grid: means over a bulk cell (nearest, conservative), "
+          "or "
+          "values at its centre.",
           DEMVOF_AT(coupling.mapping.to_bulk)),
 
       key("forces.drag", one_of<DragLaw>(),

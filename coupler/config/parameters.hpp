@@ -43,7 +43,7 @@ struct BulkGridParameters {
 enum class Schedule { staggered, concurrent };
 enum class ExchangeScheme { explicit_drag, semi_implicit, conservative_implicit };  // YAML: explicit, ...
 enum class Kernel { centre, volume, linear, gaussian, diffusion };
-enum class Mapping { nearest, conservative };
+enum class Mapping { nearest, inverse_distance, cell_point, cell_point_face, conservative };
 enum class Sharing { volume, mass };
 enum class PhaseInterchange { porous, none };
 

@@ -4,8 +4,8 @@
 // Books of one run: does what one side gave arrive at the other, and is anything made or lost?
 //
 //   exchange   J + L + F_e + F_i + (P_n+1 - P_n) = 0                per window
-//   momentum   m_s + m_f + P - sum of I = constant                  from the start
-//   solid      volume on the bulk grid = volume of the particles    per window
+//   momentum   m_s + m_f + P - sum of I = constant                  between windows in which particles come
+//   or go solid      volume on the bulk grid, and on the fine mesh, = volume of the particles    per window
 //   liquid     volume - sum of what came in = constant              from the start
 //
 // J    impulse that the particles received as drag in the window, N s
@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "coupler/grid/vec3.hpp"
 
@@ -39,7 +40,9 @@ struct WindowBalance {
                         // impulses of opposite sign cancel in the sum; 0 when not known
   Vec3 particle_momentum, fluid_momentum;             // m_s, m_f at the end of the window
   Vec3 external;                                      // I of the window
+  bool particles_changed = false;                     // some came or went, with momentum of their own
   double bulk_solid_volume = 0, particle_volume = 0;  // at the end of the window, m3
+  std::optional<double> fine_solid_volume;            // on the fine mesh, where it is put there, m3
   double liquid_volume = 0;                           // at the end of the window, m3
   double liquid_in = 0;                               // came in through the boundary in the window, m3
 };
@@ -48,7 +51,7 @@ struct WindowBalance {
 struct ConservationErrors {
   double exchange = 0;       // |sum| / (largest of |J|, |L|, |F_e + F_i|, |P_n|, |P_n+1|, turnover)
   double momentum = 0;       // |drift from the start| / (largest |m_s| + |m_f|, or |sum of I|, up to now)
-  double solid_volume = 0;   // |bulk - particles| / particles
+  double solid_volume = 0;   // larger of |bulk - particles|, |fine - particles| / particles
   double liquid_volume = 0;  // |drift from the start| / (start + sum of what came in)
 };
 
@@ -76,10 +79,15 @@ class Ledger {
         window.particle_momentum + window.fluid_momentum + pending_ - external_ - start_momentum_;
     momentum_scale_ = std::max(
         {momentum_scale_, norm(window.particle_momentum) + norm(window.fluid_momentum), norm(external_)});
-    errors.momentum = relative(norm(drift), momentum_scale_);
+    if (window.particles_changed)
+      start_momentum_ += drift;  // what they brought or took
+    else
+      errors.momentum = relative(norm(drift), momentum_scale_);
 
-    errors.solid_volume =
-        relative(std::abs(window.bulk_solid_volume - window.particle_volume), window.particle_volume);
+    const double on_bulk = std::abs(window.bulk_solid_volume - window.particle_volume);
+    const double on_fine =
+        window.fine_solid_volume ? std::abs(*window.fine_solid_volume - window.particle_volume) : 0;
+    errors.solid_volume = relative(std::max(on_bulk, on_fine), window.particle_volume);
     liquid_ += window.liquid_in;
     errors.liquid_volume = relative(std::abs(window.liquid_volume - liquid_), liquid_);
 

@@ -136,7 +136,7 @@ class Cutter {
   Cutter(const BulkGrid& grid, CutMesh& cut) : grid_(grid), cut_(cut) {}
 
   /// ijk may run over the ends of a periodic axis.
-  void add(int fine, std::array<int, 3> ijk, double volume, Vec3 centroid) {
+  void add(int fine, std::array<int, 3> ijk, double volume, Vec3 centroid, const Vec3& offset = {}) {
     for (int axis = 0; axis < 3; ++axis) {
       if (grid_.periodic()[axis]) {
         const int n = grid_.cells()[axis], wrapped = (ijk[axis] % n + n) % n;
@@ -146,18 +146,24 @@ class Cutter {
       const double low = grid_.lower()[axis] + ijk[axis] * grid_.spacing()[axis];
       centroid[axis] = std::clamp(centroid[axis], low, low + grid_.spacing()[axis]);
     }
-    cut_.pieces.push_back({fine, -1, volume, centroid});
+    cut_.pieces.push_back({fine, -1, volume, centroid, offset});
     cut_.bulk.push_back(grid_.id(ijk));
   }
 
   void add_parts(int fine, double volume, const Parts& parts) {
     double sum = 0;
-    for (const double part : parts.volume)
-      if (part > smallest_piece * volume) sum += part;
+    Vec3 moment;
+    for (std::size_t place = 0; place < parts.volume.size(); ++place) {
+      if (!(parts.volume[place] > smallest_piece * volume)) continue;
+      sum += parts.volume[place];
+      moment += parts.moment[place];
+    }
+    const Vec3 middle = moment / sum;
     for_each_cell(parts.range, [&](const std::array<int, 3>& ijk) {
       const double part = parts.volume[parts.place(ijk)];
-      if (part > smallest_piece * volume)
-        add(fine, ijk, part * (volume / sum), parts.moment[parts.place(ijk)] / part);
+      if (!(part > smallest_piece * volume)) return;
+      const Vec3 centroid = parts.moment[parts.place(ijk)] / part;
+      add(fine, ijk, part * (volume / sum), centroid, centroid - middle);
     });
   }
 

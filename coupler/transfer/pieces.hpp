@@ -29,6 +29,7 @@ struct Piece {
   int slot;       // index into Remap::cells().cells()
   double volume;  // m3
   Vec3 centroid;  // m, inside the bulk cell's box
+  Vec3 offset;    // of the centroid from that of the whole fine cell, m; sum of volume * offset is 0
 };
 
 /// The pieces of a rank's fine cells, in the order of the fine cells, before slots are known.
@@ -39,7 +40,7 @@ struct CutMesh {
 
 /// Cuts fine cells along the planes of the bulk grid. What lies outside the grid belongs to the nearest
 /// bulk cell, with a centroid moved into that cell's box; periodic directions wrap, centroids as well.
-/// Mapping::nearest: cells stay whole, in the bulk cell of their centre.
+/// Mapping::nearest: cells stay whole, in the bulk cell of their centre. All others cut.
 ///
 /// Cells inside one bulk cell and axis-aligned boxes are exact to round-off; other shapes are split into
 /// tetrahedra (cell centre, mean of the face's corners, edge), which is exact for plane faces. The pieces

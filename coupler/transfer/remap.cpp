@@ -62,7 +62,9 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
 
 Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, const FineMesh& mesh,
              Mapping to_fine, Overlap overlap)
-    : cells_(world, partition, overlap.cells), pieces_(std::move(overlap.cut.pieces)) {
+    : cells_(world, partition, overlap.cells),
+      pieces_(std::move(overlap.cut.pieces)),
+      interpolates_(interpolates(to_fine)) {
   inverse_volume_.reserve(mesh.volume.size());
   for (const double volume : mesh.volume) inverse_volume_.push_back(1.0 / volume);
 
@@ -78,6 +80,7 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
       centre = grid.cell_centre(ijk);
     }
     piece.slot = slot;
+    straddles_ |= p > 0 && pieces_[p - 1].fine == piece.fine;
     domain[slot].volume += piece.volume;
     domain[slot].moment += piece.volume * (piece.centroid - centre);
     domain[slot].pieces += 1;
@@ -99,6 +102,8 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
     }
   }
   slopes_ = LimitedSlopes(grid, cells, overlap.block, bulk_volume_, bulk_centroid_, has_slope);
+  if (interpolates_)
+    interpolation_ = BulkInterpolation(to_fine, grid, overlap.block, bulk_volume_, mesh.centre, pieces_);
 }
 
 std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width) const {
@@ -106,6 +111,7 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width)
   for (std::size_t slot = 0; slot < bulk_volume_.size(); ++slot)
     if (bulk_volume_[slot] > 0)
       for (int m = 0; m < width; ++m) means[slot * width + m] = totals[slot * width + m] / bulk_volume_[slot];
+  if (interpolates_) return interpolation_.evaluate(means, width);
   const std::vector<Vec3> slopes = slopes_.evaluate(means, width);
 
   std::vector<double> fine(inverse_volume_.size() * width, 0.0);
@@ -123,13 +129,17 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width)
 }
 
 std::vector<double> Remap::partial_sums(const std::vector<double>& fine, int width,
-                                        const std::vector<double>& weight) const {
+                                        const std::vector<double>& weight,
+                                        const std::vector<Vec3>& gradient) const {
   std::vector<double> sums(bulk_volume_.size() * width, 0.0);
   for (const Piece& piece : pieces_) {
     const double amount = weight.empty() ? piece.volume : piece.volume * weight[piece.fine];
     const double* value = &fine[std::size_t(piece.fine) * width];
     double* sum = &sums[std::size_t(piece.slot) * width];
     for (int m = 0; m < width; ++m) sum[m] += amount * value[m];
+    if (gradient.empty()) continue;
+    const Vec3* slope = &gradient[std::size_t(piece.fine) * width];
+    for (int m = 0; m < width; ++m) sum[m] += amount * dot(slope[m], piece.offset);
   }
   return sums;
 }

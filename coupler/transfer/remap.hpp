@@ -7,6 +7,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/cell_block.hpp"
 #include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/bulk_interpolation.hpp"
 #include "coupler/transfer/limited_slopes.hpp"
 #include "coupler/transfer/pieces.hpp"
 
@@ -14,9 +15,13 @@ namespace demvof {
 
 /// The way between this rank's fine mesh cells and the bulk grid. Built anew when the mesh changes.
 ///
-/// Extensive data to the fine mesh keep their integral; means to the bulk grid are volume-weighted.
-/// mapping.to_bulk says how fine cells are cut into pieces, mapping.to_fine what the profile in a bulk
-/// cell is (constant, or linear with limited slopes). With `nearest` for both this is the paper's MAP.
+/// mapping.to_fine   nearest       constant in each bulk cell; keeps the integral
+///                   conservative  linear with limited slopes; keeps the integral
+///                   others        interpolated to the fine cells' centres (bulk_interpolation.hpp); does not
+/// mapping.to_bulk   nearest       fine cells stay whole, in the bulk cell of their centre
+///                   others        fine cells are cut into pieces along the bulk grid, exactly
+///
+/// With `nearest` for both this is the paper's MAP. Sums over pieces keep the integral with every mapping.
 ///
 /// Construction is collective over the communicator of the fluid side; the calls after it are local.
 class Remap {
@@ -30,21 +35,28 @@ class Remap {
   const std::vector<Piece>& pieces() const { return pieces_; }
   /// Fluid domain volume of each touched bulk cell (over all ranks), m3; 0 outside the mesh.
   const std::vector<double>& bulk_volume() const { return bulk_volume_; }
+  /// Centroid of that domain, m; the cell's centre outside the mesh.
+  const std::vector<Vec3>& bulk_centroid() const { return bulk_centroid_; }
 
   /// Density field on the fine cells from cell totals on the bulk grid (per unit volume).
   /// totals[slot*width + m]: extensive amounts per touched bulk cell, the same on every rank that touches
   /// the cell; returns fine cells x width. Over all ranks, sum over fine cells of V * result = sum of
   /// totals, and the pieces of each bulk cell receive exactly its total, to round-off. Totals of cells
-  /// without fluid (bulk_volume 0) are not given to anybody.
-  /// Mapping::conservative: second order for smooth data; no value outside the range of the means in the
-  /// bulk cell and the cells around it, so that totals >= 0 give a result >= 0.
+  /// without fluid (bulk_volume 0) are not given to anybody. An interpolating mapping keeps none of these
+  /// sums. Mapping::conservative: second order for smooth data; no value outside the range of the means in
+  /// the bulk cell and the cells around it, so that totals >= 0 give a result >= 0.
   std::vector<double> to_fine(const std::vector<double>& totals, int width) const;
 
-  /// This rank's part of sum over pieces of volume * weight_fine * value_fine, per touched bulk cell
+  /// This rank's part of sum over pieces of volume * weight_fine * value_piece, per touched bulk cell
   /// (cells x width). The caller sums over ranks with cells().sum_to_owners.
-  /// fine: fine cells x width; weight: per fine cell, or empty for 1.
+  ///   value_piece = value_fine + gradient_fine . offset of the piece
+  /// fine: fine cells x width; weight: per fine cell, or empty for 1; gradient: fine cells x width, or empty
+  /// for 0. The sum over all bulk cells does not depend on the gradient; with it, each is of second order.
   std::vector<double> partial_sums(const std::vector<double>& fine, int width,
-                                   const std::vector<double>& weight) const;
+                                   const std::vector<double>& weight,
+                                   const std::vector<Vec3>& gradient = {}) const;
+  /// True when a fine cell of this rank lies in several bulk cells: only then a gradient changes anything.
+  bool straddles() const { return straddles_; }
 
  private:
   struct Overlap {
@@ -63,6 +75,8 @@ class Remap {
   std::vector<Vec3> bulk_centroid_;  // of the fluid domain in each touched bulk cell, m
   std::vector<int> slope_of_;        // slot -> index of its slope in slopes_, -1 for none
   LimitedSlopes slopes_;
+  BulkInterpolation interpolation_;
+  bool interpolates_, straddles_ = false;
 };
 
 }  // namespace demvof

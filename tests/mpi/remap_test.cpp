@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 
+#include "coupler/config/enum_names.hpp"
 #include "tests/support/mpi_main.hpp"
 #include "tests/support/spread_remap.hpp"
 
@@ -35,9 +36,9 @@ TEST(Remap, BulkVolumesAddUpToTheMesh) {
 }
 
 TEST(Remap, ConstantDensityStaysConstant) {
-  for (const Mapping mapping : {Mapping::nearest, Mapping::conservative})
+  for (const auto& [mapping, name] : enum_names<Mapping>)
     for (const Case& c : all_cases(5)) {
-      SCOPED_TRACE(c.name);
+      SCOPED_TRACE(c.name + ", " + name);
       const Spread s(MPI_COMM_WORLD, c, both(mapping));
       std::vector<double> totals = s.remap.bulk_volume();
       for (double& total : totals) total *= 0.37;
@@ -137,15 +138,17 @@ TEST(Remap, AnyDecompositionGivesTheResultOfOneRank) {
   const Field field = [](const Vec3& x) {
     return std::max(0.0, std::sin(5 * x.x) * std::cos(7 * x.y + x.z));
   };
-  for (const Case& c : all_cases(6)) {
-    SCOPED_TRACE(c.name);
-    const Spread spread(MPI_COMM_WORLD, c), alone(MPI_COMM_SELF, c);
-    const std::vector<double> fine = spread.remap.to_fine(spread.totals(field), 1);
-    const std::vector<double> reference = alone.remap.to_fine(alone.totals(field), 1);
-    ASSERT_EQ(alone.mine.size(), c.cells.size());
-    for (std::size_t cell = 0; cell < fine.size(); ++cell)
-      EXPECT_NEAR(fine[cell], reference[spread.mine[cell]], 1e-13);
-  }
+  for (const auto& [to_fine, name] : enum_names<Mapping>)
+    for (const Case& c : all_cases(6)) {
+      SCOPED_TRACE(c.name + ", " + name);
+      const MappingParameters mapping{to_fine, Mapping::conservative};
+      const Spread spread(MPI_COMM_WORLD, c, mapping), alone(MPI_COMM_SELF, c, mapping);
+      const std::vector<double> fine = spread.remap.to_fine(spread.totals(field), 1);
+      const std::vector<double> reference = alone.remap.to_fine(alone.totals(field), 1);
+      ASSERT_EQ(alone.mine.size(), c.cells.size());
+      for (std::size_t cell = 0; cell < fine.size(); ++cell)
+        EXPECT_NEAR(fine[cell], reference[spread.mine[cell]], 1e-13);
+    }
 }
 
 TEST(Remap, ARankWithoutCellsTakesPart) {

@@ -32,6 +32,26 @@ TEST(Ledger, AClosedExchangeHasNoError) {
   EXPECT_EQ(ledger.worst().exchange, 0);
 }
 
+TEST(Ledger, ParticlesThatComeOrGoTakeTheirMomentumWithThem) {
+  Ledger ledger({1, 0, 0}, {}, 5e-4);
+  WindowBalance window = closed({}, {}, {});
+  window.particle_momentum = {0.75, 0, 0};
+  window.particles_changed = true;
+  EXPECT_EQ(ledger.close(window).momentum, 0);
+  window.particles_changed = false;
+  EXPECT_EQ(ledger.close(window).momentum, 0);
+  window.particle_momentum = {0.5, 0, 0};
+  EXPECT_GT(ledger.close(window).momentum, 0.2) << "from the new start";
+}
+
+TEST(Ledger, SolidOnTheFineMeshCountsWhereItIsPutThere) {
+  Ledger ledger = at_rest();
+  WindowBalance window = closed({}, {}, {});
+  EXPECT_EQ(ledger.close(window).solid_volume, 0);
+  window.fine_solid_volume = 3e-5;
+  EXPECT_DOUBLE_EQ(ledger.close(window).solid_volume, 0.25);
+}
+
 TEST(Ledger, ALeftOverThatIsNotHandedOverIsAnError) {
   Ledger ledger = at_rest();
   ledger.close(closed({1, 0, 0}, {0.5, 0, 0}, {}));

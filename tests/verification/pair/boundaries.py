@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Boundaries of the pair: periodic directions, a slanted wall, outlets, frozen particles, particles of two sizes.
 
-Usage: boundaries.py DEMVOF"""
+Usage: boundaries.py DEMVOF [NAMES OF TESTS]"""
 import sys
 
 import numpy
@@ -14,7 +14,8 @@ RECORD = Record("boundaries", "Boundaries",
                 "Particles and fluid meet the same ends of the domain: a particle that crosses a periodic end moves "
                 "like one that does not; beads come to rest on a slanted wall that cuts bulk cells; particles of two "
                 "types and sizes in one bed; frozen particles in a through-flow; particles that leave with the fluid "
-                "are counted as left, not as lost; meshes and scripts that disagree are refused.")
+                "are counted as left, not as lost; meshes and scripts that disagree are refused.",
+                "tests/Alltest --verification -- -R pair.boundaries")
 
 
 def message_of(case, *options):
@@ -75,6 +76,157 @@ def refusals():
                     int("exit code 2" in text and "fluid mesh is cyclic" in text and "is not periodic" in text), 1)
 
 
-periodic()
-refusals()
+# ---- a wall across the bulk grid
+
+def facet(a, b, c):
+    corners = "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*p) for p in (a, b, c))
+    return f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
+
+
+def rectangle(name, a, b, c, d):
+    """STL text of a plane rectangle with these corners."""
+    return f"solid {name}\n{facet(a, b, c)}{facet(a, c, d)}endsolid {name}\n"
+
+
+def slanted_floor():
+    """Beads fall on a floor that rises along x: blockMesh's slanted block, and an STL plane in LIGGGHTS."""
+    length, width, rise, diameter = 0.06, 0.036, 0.012, 5e-3
+    case = BoxCase(scratch("boundaries/slanted_floor"), upper=(length, width, 0.06), fine=(10, 6, 10),
+                   bulk=(5, 3, 5), end_time=0.4, window=1e-3, dem_step=2e-5, floor_rise=rise, margin=0.01,
+                   contacts=True, stiffness=500, pimple="nNonOrthogonalCorrectors 2;")
+    case.sides["z+"] = Open(alpha=1)
+    slope = rise / length
+    for x in (0.003, 0.0083, 0.0136, 0.0189, 0.0242):  # without rolling friction they would roll down to x = 0
+        for y in (0.012, 0.024):
+            case.particles.append(Particle((x, y, 0.004 + slope * x), diameter, 2500))
+    out = 0.005
+    case.script_tail = ("fix floor all mesh/surface file floor.stl type 1\n"
+                        "fix floor_wall all wall/gran model hooke/stiffness tangential history mesh n_meshes 1 "
+                        "meshes floor\n")
+    corners = [(x, y, slope * x) for x, y in ((-out, -out), (length + out, -out), (length + out, width + out),
+                                              (-out, width + out))]
+    case.extra_files["particles/floor.stl"] = rectangle("floor", *corners)
+    run = case.run(DEMVOF)
+    state = particle_states(run.folder)
+    normal = numpy.array([-slope, 0, 1]) / numpy.hypot(slope, 1)
+    height = state["position"] @ normal - diameter / 2
+    RECORD.at_most("slanted STL floor: particles lost", run.results["particles"]["lost"], 0)
+    RECORD.at_most("slanted STL floor: solid volume error, bulk grid and fine mesh",
+                   run.number("conservation.solid_volume"), 1e-12)
+    RECORD.at_most("slanted STL floor: exchange error", run.number("conservation.exchange"), 1e-12)
+    RECORD.at_least("slanted STL floor: lowest bead above the plane", height.min() / diameter, -0.01, "d")
+    RECORD.at_most("slanted STL floor: highest bead above the plane", height.max() / diameter, 0.01, "d")
+    RECORD.at_most("slanted STL floor: fastest bead at the end",
+                   numpy.linalg.norm(state["velocity"], axis=1).max(), 1e-2, "m/s")
+    RECORD.at_most("slanted STL floor: fastest water at the end", run.history["max_speed"][-1], 5e-3, "m/s")
+    RECORD.curve("Beads on a slanted floor", "time, s", "m/s", "fastest water", run.history["time"],
+                 run.history["max_speed"], style="-")
+
+
+# ---- two sizes and types
+
+def two_sizes():
+    """A bed of two types of beads in a closed box, put in layers that touch the floor and settle."""
+    case = BoxCase(scratch("boundaries/two_sizes"), upper=(0.048, 0.048, 0.06), fine=(8, 8, 10), bulk=(4, 4, 5),
+                   end_time=0.4, window=1e-3, dem_step=2e-5, contacts=True, stiffness=500, margin=0.002)
+    kinds = {1: (6e-3, 2500), 2: (4e-3, 1800)}
+    for layer, kind in enumerate((1, 2)):
+        diameter, density = kinds[kind]
+        for i in range(6):
+            for j in range(6):
+                x, y = 0.005 + i * 0.0075, 0.005 + j * 0.0075
+                case.particles.append(Particle((x, y, 0.0032 + 0.0065 * layer), diameter, density, type=kind))
+    run = case.run(DEMVOF)
+    state = particle_states(run.folder)
+    small = state["radius"] < 2.5e-3
+    RECORD.at_most("two sizes: particles lost", run.results["particles"]["lost"], 0)
+    RECORD.at_most("two sizes: beads of each type, against the script",
+                   abs(int(small.sum()) - 36) + abs(int((~small).sum()) - 36), 0)
+    volume = numpy.pi / 6 * (2 * state["radius"]) ** 3
+    mass = volume * numpy.where(small, 1800, 2500)
+    potential = 9.81 * float((mass * state["position"][:, 2]).sum())
+    RECORD.at_most("two sizes: sum of m g z of the run, against diameters and densities of the script",
+                   abs(run.history["particle_potential_energy"][-1] / potential - 1), 1e-9)
+    RECORD.at_most("two sizes: solid volume error", run.number("conservation.solid_volume"), 1e-12)
+    RECORD.at_most("two sizes: solid volume on the mesh, against the script",
+                   abs(run.history["solid_volume_mesh"][-1] / volume.sum() - 1), 1e-6)
+    RECORD.at_most("two sizes: mean speed of the beads at the end",
+                   numpy.linalg.norm(state["velocity"], axis=1).mean(), 1e-2, "m/s")
+    RECORD.at_most("two sizes: fastest water at the end", run.history["max_speed"][-1], 5e-3, "m/s")
+
+
+# ---- inlets and outlets
+
+def channel(name, **changes):
+    case = BoxCase(scratch(f"boundaries/{name}"), upper=(0.08, 0.02, 0.02), fine=(16, 4, 4), bulk=(8, 2, 2),
+                   gravity=(0, 0, 0), end_time=0.2, window=1e-3, dem_step=1e-4, velocity=(0.2, 0, 0), **changes)
+    case.sides.update({side: Slip() for side in ("y-", "y+", "z-", "z+")})
+    case.sides.update({"x-": Inlet((0.2, 0, 0)), "x+": Outlet()})
+    return case
+
+
+def frozen_in_a_stream():
+    case = channel("frozen", pimple="nOuterCorrectors 2;")
+    for i in range(3):
+        for j in range(3):
+            for k in range(3):
+                case.particles.append(Particle((0.03 + 6e-3 * i, 4e-3 + 6e-3 * j, 4e-3 + 6e-3 * k), 4e-3, 2500,
+                                               held=True))
+    run = case.run(DEMVOF)
+    state = particle_states(run.folder)
+    start = numpy.array([p.position for p in case.particles])
+    RECORD.at_most("frozen: displacement", numpy.abs(state["position"] - start).max(), 0, "m")
+    RECORD.at_most("frozen: exchange error", run.number("conservation.exchange"), 1e-12)
+    RECORD.at_most("frozen: solid volume error", run.number("conservation.solid_volume"), 1e-12)
+    RECORD.at_most("frozen: liquid volume error", run.number("conservation.liquid_volume"), 1e-10)
+    # What the stream loses in pressure the particles hold: dp A = drag + pressure force. The water upstream has
+    # the pressure dp, that downstream none.
+    force = float((state["drag_force"] + state["pressure_force"])[:, 0].sum())
+    RECORD.at_least("frozen: force on the particles", force, 1e-4, "N")
+    pressure_drop = pressure_upstream(run)
+    RECORD.at_most("frozen: pressure drop times area against the force on the particles",
+                   abs(pressure_drop * 0.02 ** 2 / force - 1), 0.02)
+
+
+def pressure_upstream(run):
+    """p in the first cells of the last field output, Pa."""
+    times = [d for d in (run.folder / "fluid").iterdir() if d.name.replace(".", "").replace("e-", "").isdigit()]
+    content = (max(times, key=lambda d: float(d.name)) / "p").read_bytes()
+    start = content.index(b"nonuniform List<scalar>")
+    head = content.index(b"(", start)
+    count = int(content[start + len(b"nonuniform List<scalar>"):head])
+    values = numpy.frombuffer(content[head + 1:head + 1 + 8 * count])
+    return float(values.reshape(4, 4, 16)[:, :, 0].mean())
+
+
+def out_with_the_stream():
+    """Beads drift out of the channel: through a counting and deleting outlet, and without one."""
+    for name, outlet in (("left", True), ("lost", False)):
+        case = channel(f"out_{name}", margin=0.01)
+        for i in range(4):
+            case.particles.append(Particle((0.03 + 0.012 * i, 0.008 + 0.001 * i, 0.01), 3e-3, 1000, (0.2, 0, 0)))
+        case.end_time = 0.15
+        if outlet:
+            case.script_tail = ("fix outlet_mesh all mesh/surface file outlet.stl type 1\n"
+                                "fix outlet all massflow/mesh mesh outlet_mesh vec_side 1 0 0 count once "
+                                "delete_atoms yes\n")
+            case.extra_files["particles/outlet.stl"] = rectangle(
+                "outlet", (0.0799, -0.005, -0.005), (0.0799, 0.025, -0.005), (0.0799, 0.025, 0.025),
+                (0.0799, -0.005, 0.025))
+        run = case.run(DEMVOF)
+        count = run.results["particles"]
+        expected = {True: (2, 0), False: (0, 1)}[outlet]
+        RECORD.note(f"out with the stream, {name}: left", count["left"])
+        RECORD.note(f"out with the stream, {name}: lost", count["lost"])
+        RECORD.at_most(f"out with the stream, {name}: against what the positions say",
+                       abs(count["left"] - expected[0]) + abs(count["lost"] - expected[1]), 0)
+        RECORD.at_most(f"out with the stream, {name}: exchange error", run.number("conservation.exchange"), 1e-12)
+        RECORD.at_most(f"out with the stream, {name}: solid volume error",
+                       run.number("conservation.solid_volume"), 1e-12)
+
+
+TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, out_with_the_stream]
+for test in TESTS:
+    if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
+        test()
 sys.exit(RECORD.write())

@@ -79,6 +79,11 @@ class Particle:
     density: float
     velocity: tuple = (0, 0, 0)
     held: bool = False  # frozen in place
+    type: int = 1       # 1 or 2: for contact properties of its own, in script_tail
+
+
+def kind(particle):
+    return 3 if particle.held else particle.type
 
 
 @dataclasses.dataclass
@@ -115,8 +120,11 @@ class BoxCase:
     output_interval: float = 0
     history_interval: float = 0
     script_tail: str = ""      # further lines of the LIGGGHTS script
+    floor_rise: float = 0      # height of the floor's edge at x+ above that at x-: a slanted floor
+    margin: float = 0          # of the particles' box around the fluid's, where it is not periodic
     periodic: list = None      # of the particles' box, per direction; default: where the sides are cyclic
     watched: dict = dataclasses.field(default_factory=dict)  # side -> field: its mean at every fluid step
+    extra_files: dict = dataclasses.field(default_factory=dict)  # name in the folder: text
     prepare: list = None
 
     def write(self):
@@ -126,6 +134,8 @@ class BoxCase:
         self._write_fluid()
         if self.particles:
             self._write_particles()
+        for name, text in self.extra_files.items():
+            (self.folder / name).write_text(text)
         prepare = self.prepare or ["blockMesh"] + (["setFields"] if self.level is not None else [])
         content = {"fluid": {"case": "fluid", "prepare": prepare},
                    "coupling": {"end_time": self.end_time, "window": self.window, **self.coupling},
@@ -213,7 +223,7 @@ class BoxCase:
 
     def _block_mesh(self):
         (x0, y0, z0), (x1, y1, z1) = self.lower, self.upper
-        corners = " ".join(vector((x, y, z)) for z in (z0, z1)
+        corners = " ".join(vector((x, y, z + (self.floor_rise if (x, z) == (x1, z0) else 0))) for z in (z0, z1)
                            for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
         patches = ""
         for side, entry in self.sides.items():
@@ -230,20 +240,28 @@ class BoxCase:
     def _write_particles(self):
         folder = self.folder / "particles"
         folder.mkdir(parents=True)
-        type_held = 1 if all(p.held for p in self.particles) else 2  # LIGGGHTS wants types from 1 without gaps
-        lines = [f"\n{len(self.particles)} atoms\n2 atom types\n"]
-        lines += [f"{self.lower[a]:.17g} {self.upper[a]:.17g} {n}lo {n}hi" for a, n in enumerate("xyz")]
+        periodic = self.periodic or [self.sides[axis + "-"]["type"] == "cyclic" for axis in "xyz"]
+        margin = [0 if p else self.margin for p in periodic]
+        kinds = sorted({kind(p) for p in self.particles})  # LIGGGHTS wants types without a gap
+        lines = [f"\n{len(self.particles)} atoms\n{len(kinds)} atom types\n"]
+        lines += [f"{self.lower[a] - margin[a]:.17g} {self.upper[a] + margin[a]:.17g} {n}lo {n}hi"
+                  for a, n in enumerate("xyz")]
         lines.append("\nAtoms\n")
         for i, p in enumerate(self.particles, 1):
             x, y, z = p.position
-            lines.append(f"{i} {type_held if p.held else 1} {p.diameter:.17g} {p.density:.17g} {x:.17g} {y:.17g} {z:.17g}")
+            lines.append(f"{i} {kinds.index(kind(p)) + 1} {p.diameter:.17g} {p.density:.17g} "
+                         f"{x:.17g} {y:.17g} {z:.17g}")
         lines.append("\nVelocities\n")
         for i, p in enumerate(self.particles, 1):
             lines.append("{} {:.17g} {:.17g} {:.17g} 0 0 0".format(i, *p.velocity))
         (folder / "particles.data").write_text("\n".join(lines) + "\n")
 
-        periodic = self.periodic or [self.sides[axis + "-"]["type"] == "cyclic" for axis in "xyz"]
         largest = max(p.diameter for p in self.particles)
+
+        def same(name, value):  # for all pairs of types
+            return (f"fix {name} all property/global {name} peratomtypepair {len(kinds)} "
+                    + " ".join(len(kinds) ** 2 * [f"{value:.17g}"]) + "\n")
+
         k = self.stiffness
         script = f"""units si
 atom_style granular
@@ -254,22 +272,17 @@ communicate single vel yes
 read_data particles.data
 neighbor {0.2 * largest:.17g} bin
 neigh_modify delay 0
-fix kn all property/global kn peratomtypepair 2 {k} {k} {k} {k}
-fix kt all property/global kt peratomtypepair 2 {0.2857 * k} {0.2857 * k} {0.2857 * k} {0.2857 * k}
-fix gamman all property/global gamman peratomtypepair 2 500. 500. 500. 500.
-fix gammat all property/global gammat peratomtypepair 2 250. 250. 250. 250.
-fix mu all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
-pair_style gran model hooke/stiffness tangential history
+""" + (same("kn", k) + same("kt", 0.2857 * k) + same("gamman", 500) + same("gammat", 250)
+       + same("coefficientFriction", 0.3)) + f"""pair_style gran model hooke/stiffness tangential history
 pair_coeff * *
 timestep {self.dem_step or self.window:.17g}
-group held type {type_held}
 fix integrate all nve/sphere
 """
         size = sum(c * c for c in self.gravity) ** 0.5
         if size > 0:
             script += "fix gravity all gravity {:.17g} vector {:.17g} {:.17g} {:.17g}\n".format(size, *self.gravity)
         if any(p.held for p in self.particles):
-            script += "fix hold held freeze\n"
+            script += f"group held type {len(kinds)}\nfix hold held freeze\n"
         if self.contacts:
             for side, entry in self.sides.items():
                 if entry["U"] in ("noSlip", "slip"):
