@@ -187,6 +187,24 @@ TEST(ExchangeResponse, BetaAloneIsStableOnlyInASingleFluidStep) {
   EXPECT_GT(with_lag(Response::beta, 0, 50).share, 0.02);
 }
 
+TEST(ExchangeResponse, WithLagByContactUpToPartOfTheFluidsMassAndBetaBeyond) {
+  BulkParticles particles;
+  particles.drag_factor = 10;   // kg/s
+  particles.drag_response = 4;  // kg/s
+  const double step = 0.1;      // s
+  EXPECT_EQ(fluid_response(Schedule::concurrent, particles, 0.4 / 0.65 * 1.001, step), 4);
+  EXPECT_EQ(fluid_response(Schedule::concurrent, particles, 0.4 / 0.65 * 0.999, step), 10);
+  EXPECT_EQ(fluid_response(Schedule::staggered, particles, 1e-9, step), 4);
+}
+
+TEST(ExchangeLeftOver, ParticlesTakeNoMoreThanTheirDragStandsFor) {
+  EXPECT_EQ(share_for_particles(2, 2), 1);
+  EXPECT_EQ(share_for_particles(2, 3), 1);
+  EXPECT_EQ(share_for_particles(2, 0.5), 0.25);
+  EXPECT_EQ(share_for_particles(2, 0), 0);
+  EXPECT_EQ(share_for_particles(0, 0), 1) << "nothing is owed";
+}
+
 TEST(ExchangeLimits, ExplicitIsUnstableBeyondItsLimitAndOnlyThere) {
   // Held particles: u' = (1 - K) u. Free particles: the slip is multiplied by
   // 1 - (1 + phi) (1 - exp(-K/phi)). Either must stay above -1.
