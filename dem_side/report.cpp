@@ -59,7 +59,11 @@ Vec3 half_step_momentum(const Dem& dem) {
   return momentum;
 }
 
-Report::Report(const Dem& dem) : dem_(dem), count_(dem.census().count), inserted_before_(dem.inserted()), left_before_(dem.taken_out()) {}
+Report::Report(const Dem& dem)
+    : dem_(dem),
+      count_(dem.census().count),
+      inserted_before_(dem.inserted()),
+      left_before_(dem.taken_out()) {}
 
 // A particle that is gone and that no outlet of the script has taken has slipped through a wall or left the
 // box.

