@@ -19,6 +19,11 @@ struct CellSample {
   Vec3 left_over_rate;  // M / sum of w beta, m
 };
 
+struct GradientSample {
+  double fluid = 0;  // 1 with fluid
+  BulkFluidGradients gradients;
+};
+
 bool beyond_a_wall(const BulkGrid& grid, const Vec3& position) {
   for (int axis = 0; axis < 3; ++axis)
     if (!grid.periodic()[axis] &&
@@ -93,7 +98,8 @@ double Averaging::largest_solid_fraction() const {
   return largest / grid_.cell_volume();
 }
 
-std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owned) {
+std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owned,
+                                               const CellValues<BulkFluidGradients>* gradients) {
   CellValues<CellSample> offered{owned.cells, std::vector<CellSample>(owned.cells.size())};
   unplaced_left_over_ = {};
   for (std::size_t i = 0; i < owned.cells.size(); ++i) {
@@ -130,7 +136,26 @@ std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owne
                          mean.void_fraction / mean.fluid};
     at_particles[i].left_over_rate = mean.left_over_rate;
   }
+  if (gradients) sample_gradients(owned, *gradients, at_particles);
   return at_particles;
+}
+
+void Averaging::sample_gradients(const CellValues<BulkFluid>& owned,
+                                 const CellValues<BulkFluidGradients>& gradients,
+                                 std::vector<FluidAtParticle>& at_particles) {
+  assert(gradients.cells == owned.cells);
+  CellValues<GradientSample> offered{owned.cells, std::vector<GradientSample>(owned.cells.size())};
+  for (std::size_t i = 0; i < owned.cells.size(); ++i)
+    if (owned.values[i].density > 0) offered.values[i] = {1, gradients.values[i]};
+  const std::vector<GradientSample> cells = touched_->fetch_from_owners(offered, GradientSample{});
+  std::vector<GradientSample> means(weights_.particles());
+  demvof::sample(weights_, rows(cells), row_width<GradientSample>(), rows(means));
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (!(means[i].fluid > 0)) continue;
+    const BulkFluidGradients& mean = means[i].gradients;
+    at_particles[i].gradients = {mean.stress_force / means[i].fluid, mean.acceleration / means[i].fluid,
+                                 mean.vorticity / means[i].fluid};
+  }
 }
 
 }  // namespace demvof

@@ -41,8 +41,9 @@ class Averaging {
 
   /// The fluid at each local particle of the last deposit. Collective. owned: this rank's cells of
   /// that deposit. Cells without fluid do not count in the mean; a particle that reaches no other
-  /// gets density 0.
-  std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned);
+  /// gets density 0. gradients: of the same cells, when a force needs them.
+  std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned,
+                                      const CellValues<BulkFluidGradients>* gradients = nullptr);
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
   /// Local particles of the last deposit that lay outside the bulk grid: they count in its nearest cells.
@@ -56,6 +57,9 @@ class Averaging {
   const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
 
  private:
+  void sample_gradients(const CellValues<BulkFluid>& owned, const CellValues<BulkFluidGradients>& gradients,
+                        std::vector<FluidAtParticle>& at_particles);
+
   MPI_Comm world_;
   BulkGrid grid_;
   BulkPartition partition_;

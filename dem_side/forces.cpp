@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "coupler/closures/drag.hpp"
+#include "coupler/closures/lift.hpp"
 #include "coupler/closures/own_wake.hpp"
 #include "coupler/config/enum_names.hpp"
 #include "coupler/config/read_case.hpp"
@@ -16,11 +17,13 @@ namespace demvof {
 namespace {
 
 constexpr const char* rows_name = "demvof_fluid";
+constexpr const char* gradient_rows_name = "demvof_fluid_gradients";
 
-// LIGGGHTS keeps and moves the rows; CarriedFluid names the doubles in one of them.
-CarriedFluid& carried_by(double* const* rows, int i) {
-  static_assert(std::is_standard_layout_v<CarriedFluid> && alignof(CarriedFluid) == alignof(double));
-  return *reinterpret_cast<CarriedFluid*>(rows[i]);
+// LIGGGHTS keeps and moves the rows; Carried names the doubles in one of them.
+template <class Carried = CarriedFluid>
+Carried& carried_by(double* const* rows, int i) {
+  static_assert(std::is_standard_layout_v<Carried> && alignof(Carried) == alignof(double));
+  return *reinterpret_cast<Carried*>(rows[i]);
 }
 
 // A law as the particle loop has it: inlined, chosen once.
@@ -60,9 +63,9 @@ bool touches(const Vec3& contact, const Vec3& weight) {
   return dot(contact, contact) > 1e-20 * dot(weight, weight);
 }
 
-constexpr Vec3 WindowImpulses::*window_impulses[] = {&WindowImpulses::drag,      &WindowImpulses::pressure,
-                                                     &WindowImpulses::left_over, &WindowImpulses::held,
-                                                     &WindowImpulses::contact,   &WindowImpulses::gravity};
+constexpr Vec3 WindowImpulses::*window_impulses[] = {
+    &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
+    &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
 
 // The own wake is that of a point force when it is spread over at least a diameter.
 void require_spread(const WakeWidth& width, double diameter) {
@@ -82,14 +85,9 @@ void store(double* components, const Vec3& vector) {
 
 }  // namespace
 
-FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters)
-    : dem_(dem), drag_(parameters.drag), pressure_gradient_(parameters.pressure_gradient) {
+FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem), parameters_(parameters) {
   dem_.add_particle_rows(rows_name, row_width<CarriedFluid>());
-  const auto attach = [this](auto drag) {
-    dem_.attach([this, drag](const ParticleArrays& particles, double* const* external) {
-      add_forces(drag, particles, external);
-    });
-  };
+  if (need_gradients(parameters)) dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradients>());
   switch (parameters.drag) {
     case DragLaw::none:
       attach(NoDrag{});
@@ -120,6 +118,18 @@ void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diame
   own_wake_width_ = width;
 }
 
+template <class Drag>
+void FluidForces::attach(const Drag& drag_law) {
+  if (need_gradients(parameters_))
+    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* external) {
+      add_forces<true>(drag_law, particles, external);
+    });
+  else
+    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* external) {
+      add_forces<false>(drag_law, particles, external);
+    });
+}
+
 double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
   return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
 }
@@ -128,39 +138,59 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
   const ParticleArrays particles = dem_.particles();
   assert(static_cast<int>(fluid.size()) == particles.count);
   double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradient_rows =
+      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
   for (int i = 0; i < particles.count; ++i) {
     const FluidAtParticle& here = fluid[i];
     if (own_wake_width_) require_spread(*own_wake_width_, 2 * particles.radius[i]);
+    const double volume = sphere_volume(particles.radius[i]);
     const double beta = mean_drag_factor(carried_by(rows, i));  // of the window that left something over
     CarriedFluid carried;
     carried.velocity = here.velocity;
     carried.density = here.density;
     carried.viscosity = here.viscosity;
     carried.void_fraction = here.void_fraction;
-    if (pressure_gradient_)
-      carried.pressure_force = -sphere_volume(particles.radius[i]) * here.pressure_gradient;
+    if (parameters_.pressure_gradient) carried.pressure_force = -volume * here.pressure_gradient;
     carried.left_over_force = beta / window * here.left_over_rate;
     carried_by(rows, i) = carried;
+    if (gradient_rows)
+      carried_by<CarriedGradients>(gradient_rows, i) = {
+          volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
   }
   window_ = window;
   steps_ = 0;
   force_sums_ = {};
-  drag_count_ = {};
+  drag_count_ = lift_count_ = {};
 }
 
-template <class Drag>
+Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
+                       const Vec3& slip) {
+  if (parameters_.lift == LiftLaw::none) return {};
+  const double speed = norm(slip), vorticity = norm(gradients.vorticity);
+  const double reynolds = fluid.density * speed * diameter / fluid.viscosity;
+  const bool inside =
+      speed > 0 && saffman_mei_range.contains(reynolds, shear_over_slip(diameter, speed, vorticity));
+  ++lift_count_.evaluations;
+  lift_count_.outside += !inside;
+  return saffman_mei(diameter, fluid.density, fluid.viscosity, slip, gradients.vorticity);
+}
+
+template <bool with_gradients, class Drag>
 void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
+  const Vec3 constant = parameters_.constant;
   if (window_ == 0) {  // Dem::set_up(): the forces before the first step, without fluid
-    for (int i = 0; i < particles.count; ++i) store(external[i], {});
+    for (int i = 0; i < particles.count; ++i)
+      store(external[i], dem_.moves(particles.mask[i]) ? constant : Vec3{});
     return;
   }
   const double step = dem_.time_step();
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradient_rows = with_gradients ? dem_.particle_rows(gradient_rows_name) : nullptr;
   WindowImpulses sums;  // of this step alone: fewer numbers in one sum, less round-off
   for (int i = 0; i < particles.count; ++i) {
     CarriedFluid& fluid = carried_by(rows, i);
-    const double mass = particles.mass[i];
+    const double mass = particles.mass[i], diameter = 2 * particles.radius[i];
     const bool moves = dem_.moves(particles.mask[i]);
     const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
     const Vec3 contact = vec3(particles.force[i]) - weight;
@@ -168,26 +198,45 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     if (moves) {
       sums.contact += contact;
       sums.gravity += weight;
+      sums.constant += constant;
     }
-    store(external[i], {});
+    store(external[i], moves ? constant : Vec3{});
     if (fluid.density == 0) continue;
 
     const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
-    const double diameter = 2 * particles.radius[i];
     const double beta = own_wake_width_ ? without_own_wake(drag_law, fluid, diameter, norm(slip),
                                                            (*own_wake_width_)(diameter), drag_count_)
                                         : drag_law.factor(fluid, diameter, norm(slip), drag_count_);
-    const Vec3 steady = fluid.pressure_force + fluid.left_over_force;
-    const Vec3 drag = moves ? implicit_drag(beta, slip, contact + weight + steady, mass, step) : beta * slip;
+    Vec3 steady = fluid.pressure_force + fluid.left_over_force;
+    Vec3 given;  // by the exchange: its reaction goes to the fluid
+    if constexpr (with_gradients) {
+      CarriedGradients& gradients = carried_by<CarriedGradients>(gradient_rows, i);
+      const double added = added_mass(fluid, particles.radius[i]);
+      const Vec3 across = lift(fluid, gradients, diameter, slip);
+      steady += gradients.stress_force;
+      sums.stress += gradients.stress_force;
+      Vec3 drag = beta * slip, acceleration;
+      if (moves) {
+        const Vec3 others = contact + weight + constant + steady + across + added * gradients.acceleration;
+        drag = implicit_drag(beta, slip, others, mass + added, step);
+        acceleration = (drag + others) / (mass + added);
+      }
+      const Vec3 other = across + added * (gradients.acceleration - acceleration);
+      gradients.other_impulse += step * other;
+      given = drag + other;
+    } else {
+      const Vec3 others = contact + weight + constant + steady;
+      given = moves ? implicit_drag(beta, slip, others, mass, step) : beta * slip;
+    }
     fluid.drag_factor_sum += beta;
-    fluid.drag_impulse += step * drag;
-    sums.drag += drag;
+    fluid.drag_impulse += step * given;
+    sums.drag += given;
     sums.pressure += fluid.pressure_force;
     sums.left_over += fluid.left_over_force;
     if (moves)
-      store(external[i], drag + steady);
+      store(external[i], given + steady + constant);
     else
-      sums.held += drag + steady;
+      sums.held += given + steady;
   }
   for (Vec3 WindowImpulses::*part : window_impulses) force_sums_.*part += sums.*part;
   ++steps_;
@@ -197,17 +246,22 @@ std::vector<BulkParticles> FluidForces::contributions() const {
   const ParticleArrays particles = dem_.particles();
   std::vector<BulkParticles> contributions(particles.count);
   double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradient_rows =
+      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
   for (int i = 0; i < particles.count; ++i) {
     const CarriedFluid& fluid = carried_by(rows, i);
     const double beta = mean_drag_factor(fluid);
     const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? fluid.contact_steps / steps_ : 1;
-    const double response = drag_response(beta, particles.mass[i], window_, held);
+    const double response =
+        drag_response(beta, particles.mass[i], window_, held, added_mass(fluid, particles.radius[i]));
     BulkParticles& here = contributions[i];
     here.solid_volume = sphere_volume(particles.radius[i]);
     here.drag_impulse = fluid.drag_impulse;
     here.drag_factor = beta;
     here.drag_response = response;
     here.drag_weighted_velocity = beta * vec3(particles.velocity[i]);
+    if (gradient_rows && window_ > 0)
+      here.drag_weighted_velocity -= carried_by<CarriedGradients>(gradient_rows, i).other_impulse / window_;
     here.response_weighted_velocity = response * fluid.velocity;
   }
   return contributions;
@@ -219,7 +273,8 @@ const CarriedFluid& FluidForces::carried(int i) const {
 
 std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const {
   std::vector<std::pair<std::string, ClosureCount>> closures;
-  if (drag_ != DragLaw::none) closures.emplace_back(name_of(drag_), drag_count_);
+  if (parameters_.drag != DragLaw::none) closures.emplace_back(name_of(parameters_.drag), drag_count_);
+  if (parameters_.lift != LiftLaw::none) closures.emplace_back(name_of(parameters_.lift), lift_count_);
   return closures;
 }
 

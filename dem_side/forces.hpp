@@ -6,8 +6,14 @@
 //   F_drag     = beta (u - v), integrated implicitly (implicit_drag.hpp)
 //   F_pressure = -V grad p       grad p of the total pressure: buoyancy is inside it
 //   F_left     = M_i / window    impulse still owed from the exchange of the last window
+//   F_stress   = V (div tau + sigma kappa grad alpha), each part when it is named
+//   F_lift     = lift.hpp
+//   F_added    = m_a (Du/Dt - dv/dt), m_a = C_m rho V, implicit with the drag
+//   F_constant the case file's
 //
-// u, grad p, rho, mu and M_i are constant over a window, beta and v are not.
+// u and its derivatives, grad p, rho, mu and M_i are constant over a window, beta and v are not. What the
+// fluid gets back through the exchange is the reaction to drag, lift and added mass: they make up the
+// drag impulse. Pressure and stress are the particle's share of terms that stand in the fluid's equation.
 //
 // Time levels. LIGGGHTS integrates by velocity Verlet. When it asks for forces at step n, it holds
 // x(n) and v(n-1/2), and the force found takes v to n+1/2. The momentum of these half steps,
@@ -15,7 +21,8 @@
 //   P = sum of m v(n+1/2) = sum of m v(n) + (dt/2) f(n),
 //
 // therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
-// drag + pressure + left-over - held + contact + gravity, add up to its change to round-off.
+// drag + pressure + left-over + stress + constant - held + contact + gravity, add up to its change to
+// round-off.
 
 #include <optional>
 #include <string>
@@ -37,6 +44,7 @@ struct FluidAtParticle {
   double viscosity = 0;      // mu, Pa s
   Vec3 left_over_rate;       // left-over impulse per drag factor, m
   double void_fraction = 1;  // eps, -
+  BulkFluidGradients gradients = {};
 };
 
 /// What a particle carries through a window, from rank to rank: what it feels and what it received.
@@ -48,16 +56,24 @@ struct CarriedFluid {
   double void_fraction = 1;    // eps, -
   Vec3 pressure_force;         // N
   Vec3 left_over_force;        // N
-  Vec3 drag_impulse;           // received in this window, N s
+  Vec3 drag_impulse;           // received in this window, lift and added mass included, N s
   double drag_factor_sum = 0;  // sum of beta over the steps of this window, kg/s
   double contact_steps = 0;    // steps of this window with a force other than gravity
 };
 
+/// What it carries besides when a force needs the fluid's derivatives.
+struct CarriedGradients {
+  Vec3 stress_force;   // N
+  Vec3 acceleration;   // Du/Dt, m/s2
+  Vec3 vorticity;      // 1/s
+  Vec3 other_impulse;  // of the drag impulse, what lift and added mass gave, N s
+};
+
 /// Impulses of one window on this rank's particles, N s.
 struct WindowImpulses {
-  Vec3 drag, pressure, left_over;  // on all particles
-  Vec3 held;                       // the part of these that went to particles which no force moves
-  Vec3 contact, gravity;           // on the particles that forces move
+  Vec3 drag, pressure, left_over, stress;  // on all particles; drag with lift and added mass
+  Vec3 held;                               // the part of these that went to particles which no force moves
+  Vec3 contact, gravity, constant;         // on the particles that forces move
 };
 
 /// How often a closure was evaluated, and how often outside the range it was fitted for.
@@ -95,17 +111,22 @@ class FluidForces {
 
  private:
   template <class Drag>
+  void attach(const Drag& drag_law);
+  template <bool with_gradients, class Drag>
   void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
+  Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   double mean_drag_factor(const CarriedFluid& fluid) const;
+  double added_mass(const CarriedFluid& fluid, double radius) const {  // kg
+    return parameters_.added_mass * fluid.density * sphere_volume(radius);
+  }
 
   Dem& dem_;
-  DragLaw drag_;
-  bool pressure_gradient_;
+  ForceParameters parameters_;
   std::optional<WakeWidth> own_wake_width_;
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window
-  ClosureCount drag_count_;
+  ClosureCount drag_count_, lift_count_;
 };
 
 }  // namespace demvof

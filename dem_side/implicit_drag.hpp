@@ -10,6 +10,13 @@
 //   phi = (1 - exp(-x))/x
 //
 // The particle never overshoots u + F/beta, however large x is, and beta = 0 needs no special case.
+//
+// Added mass m_a = C_m rho V, the force m_a (Du/Dt - dv/dt), joins with no further approximation: in
+//
+//   (m + m_a) dv/dt = beta (u - v) + (F + m_a Du/Dt)
+//
+// m + m_a stands for m and F + m_a Du/Dt for F. The acceleration is found, not extrapolated: stable for
+// particles as light as wished.
 
 #include <cmath>
 
@@ -24,17 +31,21 @@ inline double mean_decay(double x) {
   return -std::expm1(-x) / x;
 }
 
-/// Mean drag over a step, N. beta: kg/s; slip: u - v at its start, m/s; other: F, N; mass, kg; step, s.
+/// Mean drag over a step, N. beta: kg/s; slip: u - v at its start, m/s; other: F, N; mass: m or m + m_a, kg;
+/// step, s.
 inline Vec3 implicit_drag(double beta, const Vec3& slip, const Vec3& other, double mass, double step) {
   const double phi = mean_decay(beta * step / mass);
   return beta * phi * slip + (phi - 1) * other;
 }
 
-/// beta_eff, kg/s: change of a particle's mean drag over a window with the fluid velocity. A free
-/// particle follows the fluid, (m/window)(1 - exp(-beta window/m)); one held by contacts does not, beta.
+/// beta_eff, kg/s: change of what a particle takes from the fluid, per time, with the fluid velocity. A free
+/// particle follows the fluid, (m/window)(1 - exp(-beta window/(m + m_a))): of the momentum it gains the
+/// added mass m_a is the fluid's own. One held by contacts does not follow, beta.
 /// contact_fraction: part of the window it spent in contact, 0 .. 1.
-inline double drag_response(double beta, double mass, double window, double contact_fraction) {
-  const double free = beta * mean_decay(beta * window / mass);
+inline double drag_response(double beta, double mass, double window, double contact_fraction,
+                            double added_mass = 0) {
+  const double inertia = mass + added_mass;
+  const double free = mass / inertia * beta * mean_decay(beta * window / inertia);
   return contact_fraction * beta + (1 - contact_fraction) * free;
 }
 

@@ -128,6 +128,8 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
       {"pressure_impulse", array(sums.impulses.pressure)},
       {"left_over_given", array(sums.impulses.left_over)},
       {"left_over_unplaced", array(sums.unplaced_left_over)},
+      {"stress_impulse", array(sums.impulses.stress)},
+      {"constant_impulse", array(sums.impulses.constant)},
       {"contact_impulse", array(sums.impulses.contact)},
       {"gravity_impulse", array(sums.impulses.gravity)},
       {"held_impulse", array(sums.impulses.held)},

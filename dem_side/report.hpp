@@ -37,7 +37,8 @@ class Report {
   ///   kinetic_energy                 of translation, J;  potential_energy  -m g.x, J
   ///   max_speed, solid_front         m/s; largest coordinates that a particle's surface reaches, m
   ///   momentum                       of the half steps (forces.hpp), kg m/s; changes by
-  ///     drag_impulse + pressure_impulse + left_over_given - held_impulse + contact_impulse + gravity_impulse
+  ///     drag_impulse + pressure_impulse + left_over_given + stress_impulse + constant_impulse - held_impulse
+  ///     + contact_impulse + gravity_impulse
   ///   drag_impulse_bulk              the same as drag_impulse unless particles were lost, N s
   ///   left_over_unplaced             left-over impulse of cells without drag, given to nobody, N s
   ///   closures                       by name: evaluations in this window, and how many of them were outside

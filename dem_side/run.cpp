@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "coupler/config/read_case.hpp"
 #include "coupler/config/stopwatch.hpp"
@@ -101,9 +102,11 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   for (long n = 1; n <= windows && go_on; ++n) {
     run_stage().set("exchange with the fluid", static_cast<double>(n - 1) * coupling.window);
     const auto fluid = link.receive<BulkFluid>();  // at the start of this window, whatever the schedule
+    std::optional<CellValues<BulkFluidGradients>> gradients;
+    if (need_gradients(parameters.forces)) gradients = link.receive<BulkFluidGradients>();
     {
       const Stopwatch watch(seconds.averaging);
-      forces.begin_window(averaging.sample(fluid), coupling.window);
+      forces.begin_window(averaging.sample(fluid, gradients ? &*gradients : nullptr), coupling.window);
     }
     run_stage().set("DEM steps");
     {

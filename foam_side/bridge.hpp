@@ -59,6 +59,9 @@ class Bridge {
   /// which is theirs from now on.
   CellValues<BulkFluid> bulk_fluid();
 
+  /// Derivatives on the same cells; only when a force needs them (need_gradients).
+  CellValues<BulkFluidGradients> bulk_fluid_gradients() const;
+
   /// Impulses of the window just simulated, sums over all ranks, N s.
   struct Impulses {
     Vec3 explicit_part, implicit_part;

@@ -94,6 +94,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
     {
       const Stopwatch watch(seconds.mapping);
       link.send(bridge.bulk_fluid());
+      if (need_gradients(parameters.forces)) link.send(bridge.bulk_fluid_gradients());
     }
     if (concurrent)
       link.deliver();  // the particles do this window now, the fluid with what they did in the last

@@ -146,6 +146,7 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
     }
     balance.particle_momentum = vec3(p.at("momentum"));
     balance.external = drag_felt + left_over_given + vec3(p.at("pressure_impulse")) +
+                       vec3(p.at("stress_impulse")) + vec3(p.at("constant_impulse")) +
                        vec3(p.at("contact_impulse")) + vec3(p.at("gravity_impulse")) -
                        vec3(p.at("held_impulse")) + (balance.pending - pending_);
     pending_ = balance.pending;

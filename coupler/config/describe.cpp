@@ -41,7 +41,7 @@ Json schema_of_one(const ValueRule& rule) {
   return schema;
 }
 
-Json schema_of(const Key& key, const CaseParameters& defaults) {
+Json schema_of_value(const Key& key) {
   Json schema = {{"description", key.doc}};
   if (!key.rule.unit.empty() && key.rule.unit != "-")
     schema["description"] = fmt::format("{} Unit: {}.", key.doc, key.rule.unit);
@@ -53,6 +53,11 @@ Json schema_of(const Key& key, const CaseParameters& defaults) {
   } else {
     schema.update(schema_of_one(key.rule));
   }
+  return schema;
+}
+
+Json schema_of(const Key& key, const CaseParameters& defaults) {
+  Json schema = schema_of_value(key);
   if (!key.required) schema["default"] = key.get(defaults);
   return schema;
 }
@@ -65,10 +70,8 @@ Json list_section_schema(const Section& section) {
     if (key.rule.form == Form::flag) {
       entries.push_back({{"description", key.doc}, {"const", name}});
     } else {
-      Json value = schema_of_one(key.rule);
-      value["description"] = key.doc;
       entries.push_back({{"type", "object"},
-                         {"properties", {{name, value}}},
+                         {"properties", {{name, schema_of_value(key)}}},
                          {"required", Json::array({name})},
                          {"additionalProperties", false}});
     }

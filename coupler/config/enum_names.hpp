@@ -54,6 +54,9 @@ inline const EnumNames<DragLaw> enum_names<DragLaw> = {{DragLaw::none, "none"},
 template <>
 inline const EnumNames<OwnWake> enum_names<OwnWake> = {{OwnWake::none, "none"}, {OwnWake::oseen, "oseen"}};
 template <>
+inline const EnumNames<LiftLaw> enum_names<LiftLaw> = {{LiftLaw::none, "none"},
+                                                       {LiftLaw::saffman_mei, "saffman_mei"}};
+template <>
 inline const EnumNames<Switch> enum_names<Switch> = {
     {Switch::automatic, "auto"}, {Switch::on, "on"}, {Switch::off, "off"}};
 

@@ -51,6 +51,12 @@ std::string unknown_path(const std::string& path) {
   return unknown_key(name_of_key(path), in_section ? parent_of(path) : "");
 }
 
+/// How an entry with a value is written.
+std::string entry_example(const std::string& word, const ValueRule& rule) {
+  const std::string value = rule.form == ValueRule::Form::choice ? rule.choices.back() : allowed_text(rule);
+  return fmt::format("{{{}: {}}}", word, value);
+}
+
 std::string read_text(const std::string& file) {
   std::ifstream stream(file);
   std::ostringstream text;
@@ -123,7 +129,7 @@ void GivenValues::walk_list(const YAML::Node& node, const std::string& path) {
   // What a given list does not name is off.
   for (const Key& key : case_keys())
     if (parent_of(key.path) == path) {
-      values_[key.path] = YAML::Node(key.rule.form == ValueRule::Form::flag ? "false" : "none");
+      values_[key.path] = YAML::Load(off_value(key.rule).dump());
       sources_[key.path] = source_of(node);
     }
   std::vector<std::string> seen;
@@ -145,8 +151,7 @@ void GivenValues::walk_list_entry(const YAML::Node& entry, const std::string& pa
   const std::string& word = entry.Scalar();
   const Key* key = find_key(joined(path, word));
   if (key && key->rule.form != ValueRule::Form::flag)
-    add_mistake(source_of(entry), key->path,
-                fmt::format("needs a value: write {{{}: {}}}", word, key->rule.choices.back()));
+    add_mistake(source_of(entry), key->path, "needs a value: write " + entry_example(word, key->rule));
   else
     walk_item(word, YAML::Node("true"), source_of(entry), path, seen);
 }

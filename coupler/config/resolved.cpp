@@ -28,12 +28,12 @@ Json configuration(const CaseParameters& parameters, Wanted wanted) {
     if (!present(parameters, section) || !wanted(key)) continue;
     Json& place = place_of(root, section);
     const Json value = key.get(parameters);
-    if (!find_section(section)->is_list)
+    if (!find_section(section)->is_list) {
       place[name] = value;
-    else if (!value.is_boolean())
-      place.push_back(Json{{name, value}});
-    else if (value.get<bool>())
-      place.push_back(name);
+      continue;
+    }
+    if (place.is_null()) place = Json::array();
+    if (value != off_value(key.rule)) place.push_back(value.is_boolean() ? Json(name) : Json{{name, value}});
   }
   return root;
 }

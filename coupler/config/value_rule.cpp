@@ -117,6 +117,13 @@ std::string allowed_text(const ValueRule& rule) {
   return rule.unit.empty() || rule.unit == "-" ? text : fmt::format("{} ({})", text, rule.unit);
 }
 
+Json off_value(const ValueRule& rule) {
+  if (rule.list_length) return Json(std::vector<double>(static_cast<std::size_t>(*rule.list_length), 0.0));
+  if (rule.form == Form::flag) return false;
+  if (rule.form == Form::choice) return "none";
+  return 0.0;
+}
+
 std::optional<std::string> read_value(const YAML::Node& node, const ValueRule& rule, Json& value) {
   if (!rule.list_length) return read_one(node, rule, value);
   const auto length = static_cast<std::size_t>(*rule.list_length);

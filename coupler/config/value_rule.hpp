@@ -30,6 +30,9 @@ struct ValueRule {
 /// "a number > 0 (s)", "3 whole numbers from 1 to 1000000", "one of centre, linear, gaussian".
 std::string allowed_text(const ValueRule& rule);
 
+/// What a key of a list section (forces) has when the list does not name it.
+Json off_value(const ValueRule& rule);
+
 /// Reads a YAML node by the rule into value; returns what is wrong with it, or nothing.
 std::optional<std::string> read_value(const YAML::Node& node, const ValueRule& rule, Json& value);
 

@@ -7,10 +7,11 @@
 //
 //   scheme                  explicit part     C            u_ref
 //   explicit                -J/dt             0            -
-//   semi_implicit           0                 K V          u_s = sum(w beta v)/sum(w beta)
+//   semi_implicit           0                 K V          u_s = sum(w (beta v - F_o))/sum(w beta)
 //   conservative_implicit   -J/dt             K_eff V      mean fluid velocity the particles felt
 //
-// J     drag impulse the particles of the cell received in the window, N s
+// J     impulse the particles of the cell received in the window as drag, lift and added mass, N s
+// F_o   the part of J/dt that is not drag, N: through u_s the fluid gets exactly -sum w F_o besides
 // K V   sum of w beta, kg/s;  K_eff V its response form (bulk_cells.hpp), kg/s
 // dt    window, s
 //
@@ -57,6 +58,8 @@ inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& part
       source.coefficient = particles.drag_factor;
       if (particles.drag_factor > 0)
         source.reference_velocity = particles.drag_weighted_velocity / particles.drag_factor;
+      else  // no drag: -F_o alone
+        source.explicit_force = particles.drag_weighted_velocity;
       break;
     case ExchangeScheme::conservative_implicit:
       source.explicit_force = -particles.drag_impulse / window;

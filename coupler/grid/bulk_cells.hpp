@@ -35,14 +35,22 @@ struct BulkFluid {
   Vec3 left_over;            // M, N s: impulse that the particles of this cell must still receive
 };
 
+/// Derivatives of the fluid in one bulk cell; sent after BulkFluid, for the same cells, only when a force of
+/// the case needs them.
+struct BulkFluidGradients {
+  Vec3 stress_force;  // div tau (viscous_stress) + sigma kappa grad alpha (capillary), those named, N/m3
+  Vec3 acceleration;  // Du/Dt, m/s2
+  Vec3 vorticity;     // curl u, 1/s
+};
+
 /// What the particles tell the fluid about one bulk cell at the end of a window. Every member is
 /// extensive: a sum over the particles with weights w_ic that add up to 1 for each particle.
 struct BulkParticles {
-  double solid_volume = 0;          // sum w V, m3
-  Vec3 drag_impulse;                // J, sum w (impulse received as drag in the window), N s
-  double drag_factor = 0;           // K V_cell = sum w beta, kg/s
-  double drag_response = 0;         // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
-  Vec3 drag_weighted_velocity;      // sum w beta v, N
+  double solid_volume = 0;      // sum w V, m3
+  Vec3 drag_impulse;            // J, sum w (impulse received as drag, lift, added mass in the window), N s
+  double drag_factor = 0;       // K V_cell = sum w beta, kg/s
+  double drag_response = 0;     // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
+  Vec3 drag_weighted_velocity;  // sum w (beta v - mean lift and added-mass force), N
   Vec3 response_weighted_velocity;  // sum w beta_eff u_felt (fluid velocity each particle felt), N
 };
 

@@ -22,12 +22,14 @@ class Plan {
   bool porosity();
   bool turbulence();
   void forces(const ForceParameters& forces);
+  void capillary_force(bool named, bool surface_tension);
   void empty_bulk_cells();
 
   std::vector<Decision> decisions;
   std::string impossible;  // what the case file forces in vain, one line each
 
  private:
+  void force_on_particles(const std::string& name, bool named);
   bool decide(const std::string& decision, bool on, const std::string& reason) {
     decisions.push_back({decision, on, reason});
     return on;
@@ -59,17 +61,33 @@ bool Plan::particles() {
                             facts_.inserts_particles ? " and inserts more during the run" : ""));
 }
 
+void Plan::force_on_particles(const std::string& name, bool named) {
+  if (!with_particles_)
+    decide(name, false, "There are no particles.");
+  else
+    decide(name, named, named ? "It is named in forces." : "It is not named in forces.");
+}
+
 void Plan::forces(const ForceParameters& forces) {
-  const auto decide_force = [this](const std::string& name, bool named) {
-    if (!with_particles_)
-      decide(name, false, "There are no particles.");
-    else
-      decide(name, named, named ? "It is named in forces." : "It is not named in forces.");
-  };
   const bool drag = forces.drag != DragLaw::none;
-  decide_force(drag ? "drag (" + name_of(forces.drag) + ")" : "drag", drag);
-  decide_force("pressure-gradient force", forces.pressure_gradient);
-  decide_force("own wake taken out of the velocity felt", forces.own_wake != OwnWake::none);
+  force_on_particles(drag ? "drag (" + name_of(forces.drag) + ")" : "drag", drag);
+  force_on_particles("pressure-gradient force", forces.pressure_gradient);
+  force_on_particles("own wake taken out of the velocity felt", forces.own_wake != OwnWake::none);
+  force_on_particles("viscous stress on particles", forces.viscous_stress);
+  const bool added_mass = forces.added_mass > 0;
+  force_on_particles(added_mass ? fmt::format("added mass ({})", forces.added_mass) : "added mass",
+                     added_mass);
+  const bool lift = forces.lift != LiftLaw::none;
+  force_on_particles(lift ? "lift (" + name_of(forces.lift) + ")" : "lift", lift);
+  force_on_particles("constant force on particles", norm(forces.constant) > 0);
+}
+
+void Plan::capillary_force(bool named, bool surface_tension) {
+  const std::string name = "capillary force on particles";
+  if (with_particles_ && named && !surface_tension)
+    decide(name, false, "It is named in forces, but the run has no surface tension.");
+  else
+    force_on_particles(name, named);
 }
 
 bool Plan::interface_advection() {
@@ -133,6 +151,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   plan.forces(forces);
   scene.interface_advection = plan.interface_advection();
   scene.surface_tension = plan.surface_tension();
+  plan.capillary_force(forces.capillary, scene.surface_tension);
   scene.porosity = plan.porosity();
   plan.empty_bulk_cells();
   scene.turbulence = plan.turbulence();

@@ -120,6 +120,29 @@ TEST(CaseFiles, FillEveryParameter) {
   EXPECT_EQ(c.output.pictures, (std::vector<double>{0, 0.5}));
 }
 
+TEST(CaseFiles, NameForcesInAList) {
+  const CaseFile file(full);
+  const auto forces = [&](const std::string& list) {
+    return read_case(file.path(), {"forces=" + list}).forces;
+  };
+  const ForceParameters all = forces(
+      "[{drag: rong}, viscous_stress, {added_mass: 0.5}, {lift: saffman_mei}, capillary, "
+      "{constant: [0, 1e-6, -2]}]");
+  EXPECT_EQ(all.drag, DragLaw::rong);
+  EXPECT_FALSE(all.pressure_gradient);
+  EXPECT_TRUE(all.viscous_stress && all.capillary && need_gradients(all));
+  EXPECT_EQ(all.added_mass, 0.5);
+  EXPECT_EQ(all.lift, LiftLaw::saffman_mei);
+  EXPECT_EQ(all.constant.y, 1e-6);
+  EXPECT_EQ(all.constant.z, -2);
+  const ForceParameters few = forces("[pressure_gradient, {constant: [1, 0, 0]}]");
+  EXPECT_FALSE(few.viscous_stress || few.capillary || need_gradients(few));
+  EXPECT_EQ(few.drag, DragLaw::none);
+  EXPECT_EQ(few.constant.x, 1);
+  EXPECT_TRUE(need_gradients(forces("[{added_mass: 0.1}]")) && need_gradients(forces("[viscous_stress]")) &&
+              need_gradients(forces("[capillary]")) && need_gradients(forces("[{lift: saffman_mei}]")));
+}
+
 TEST(CaseFiles, AcceptAnEndTimeOfWholeWindowsInDecimals) {
   // 0.3 / 1e-4 is 2999.9999999999995 in binary: round-off of decimal input is no mistake.
   const CaseFile file(plain);
@@ -178,7 +201,7 @@ TEST(ResolvedConfiguration, HoldsEveryKey) {
   const CaseFile file(full);
   const auto json = nlohmann::json::parse(resolved_configuration(read_case(file.path())));
   EXPECT_EQ(json["coupling"]["averaging"]["maximum_solid_fraction"], 0.6);
-  EXPECT_EQ(json["forces"], nlohmann::json::parse(R"([{"drag": "none"}, {"own_wake": "none"}])"));
+  EXPECT_EQ(json["forces"], nlohmann::json::array());
   EXPECT_EQ(json["scene"]["particles"], "auto") << "a default";
   EXPECT_EQ(json["fluid"]["case"], "fluid") << "as given";
 }

@@ -47,7 +47,8 @@ Vec3 half_step_momentum(const demvof::Dem& dem) {
 }
 
 WindowImpulses over_ranks(WindowImpulses impulses, MPI_Comm world) {
-  MPI_Allreduce(MPI_IN_PLACE, &impulses.drag.x, 18, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, &impulses.drag.x, sizeof(impulses) / sizeof(double), MPI_DOUBLE, MPI_SUM,
+                world);
   return impulses;
 }
 
@@ -132,6 +133,11 @@ TEST(DemForces, FollowTheNonlinearEquationOfMotion) {
 // did to the momentum is what the book-keeping says, window by window, and a cell's drag is the sum of
 // what its particles received.
 TEST(DemForces, AccountForEveryImpulse) {
+  ForceParameters parameters;
+  parameters.viscous_stress = parameters.capillary = true;
+  parameters.added_mass = 0.5;
+  parameters.lift = demvof::LiftLaw::saffman_mei;
+  parameters.constant = {1e-5, 0, -2e-5};
   std::string script = empty_box(1e-5);
   for (int i = 0; i < 5; ++i)
     script += bead({0.02 + 0.0135 * i, 0.05, 0.0014}) + bead({0.0201 + 0.0135 * i, 0.0501, 0.0048});
@@ -139,19 +145,20 @@ TEST(DemForces, AccountForEveryImpulse) {
             "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n" +
             integrate;
   Scene scene("impulses", script);
-  FluidForces forces(*scene.dem, ForceParameters{});
+  FluidForces forces(*scene.dem, parameters);
   scene.dem->set_up();
   bool touched = false;
   for (int n = 0; n < 20; ++n) {
     FluidAtParticle fluid = still_water();
     fluid.velocity = {0.3 * std::sin(n), 0.1, 0.2 * std::cos(3 * n)};
     fluid.left_over_rate = {1e-4, -1e-5 * n, 5e-5};
+    fluid.gradients = {{10, -20, 5.0 * n}, {1, 0.5 * n, -2}, {3, 30, -5}};
     const Vec3 before = half_step_momentum(*scene.dem);
     window(*scene.dem, forces, fluid, 100);
     const Vec3 change = half_step_momentum(*scene.dem) - before;
     const WindowImpulses impulses = over_ranks(forces.impulses(), scene.dem->world());
-    const Vec3 booked =
-        impulses.drag + impulses.pressure + impulses.left_over + impulses.contact + impulses.gravity;
+    const Vec3 booked = impulses.drag + impulses.pressure + impulses.left_over + impulses.stress +
+                        impulses.constant + impulses.contact + impulses.gravity;
     EXPECT_LT(norm(change - booked), 1e-12 * norm(impulses.gravity)) << n;
     touched = touched || norm(impulses.contact) > 1e-3 * norm(impulses.gravity);
 
@@ -184,6 +191,84 @@ TEST(DemForces, UseTheVoidFractionInTheDragLaw) {
     EXPECT_EQ(counts[0], 10);
     EXPECT_EQ(counts[1], eps < 0.36 ? 10 : 0);
   }
+}
+
+// A light sphere let go in still water: buoyancy works on its own mass and on half its volume of water. The
+// first half step is LIGGGHTS's own, without fluid.
+TEST(DemForces, StartALightSphereWithItsAddedMass) {
+  const double step = 1e-6, density = 25;
+  Scene scene("light", empty_box(step) + bead({0.05, 0.05, 0.2}) + "set group all diameter " +
+                           std::to_string(bead_diameter) + " density " + std::to_string(density) + "\n" +
+                           gravity + integrate);
+  ForceParameters parameters;
+  parameters.drag = demvof::DragLaw::none;
+  parameters.added_mass = 0.5;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  const double mass = density * bead_volume;
+  const Vec3 before = half_step_momentum(*scene.dem);
+  window(*scene.dem, forces, still_water(), 100);
+  const double acceleration = (half_step_momentum(*scene.dem) - before).z / mass / (100 * step);
+  EXPECT_NEAR(acceleration / (9.81 * (1000 - density) / (density + 0.5 * 1000)), 1, 1e-12);
+
+  // Of what buoyancy and weight gave, the fluid gets back what its added mass took.
+  const WindowImpulses impulses = over_ranks(forces.impulses(), scene.dem->world());
+  EXPECT_NEAR(impulses.drag.z / (-0.5 * 1000 * bead_volume * acceleration * 100 * step), 1, 1e-12);
+  for (const auto& row : forces.contributions()) {
+    EXPECT_EQ(row.drag_factor, 0);
+    EXPECT_NEAR(row.drag_weighted_velocity.z / (-impulses.drag.z / (100 * step)), 1, 1e-12);
+  }
+}
+
+// In a fluid that accelerates a neutrally buoyant sphere goes with it: pressure gradient and added mass
+// together are (1 + C_m) rho V Du/Dt on the mass (1 + C_m) rho V.
+TEST(DemForces, CarryANeutralSphereWithAnAcceleratingFluid) {
+  const double step = 1e-5;
+  Scene scene("neutral", empty_box(step) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);
+  ForceParameters parameters;
+  parameters.drag = demvof::DragLaw::none;
+  parameters.added_mass = 0.5;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  const Vec3 acceleration{3, -1, 0.5};
+  FluidAtParticle fluid{{}, -bead_density * acceleration, bead_density, 1e-30, {}};
+  fluid.gradients.acceleration = acceleration;
+  for (int n = 0; n < 5; ++n) window(*scene.dem, forces, fluid, 10);
+  const Vec3 velocity = half_step_momentum(*scene.dem) / bead_mass;
+  EXPECT_LT(norm(velocity - 50 * step * acceleration), 1e-12 * norm(velocity));
+}
+
+// Stress and constant force act as given; the stress is not the exchange's, lift is.
+TEST(DemForces, AddStressConstantForceAndLift) {
+  const double step = 1e-5;
+  Scene scene("others", empty_box(step) + bead({0.05, 0.05, 0.2}) + bead_properties() + integrate);
+  ForceParameters parameters;
+  parameters.drag = demvof::DragLaw::none;
+  parameters.viscous_stress = true;
+  parameters.constant = {0, 0, 3e-5};
+  parameters.lift = demvof::LiftLaw::saffman_mei;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  const Vec3 before = half_step_momentum(*scene.dem);
+  EXPECT_NEAR(before.z / (0.5 * step * 3e-5), 1, 1e-12);  // acts from the first half step on
+  FluidAtParticle fluid{{1e-2, 0, 0}, {}, 1000, 1e-3, {}};
+  fluid.gradients = {{0, 100, 0}, {}, {0, 0, -2}};
+  window(*scene.dem, forces, fluid, 1);
+  const Vec3 force = (half_step_momentum(*scene.dem) - before) / step;
+  // To 1e-6: the constant force has moved the bead a little before its lift is found.
+  const double Re = 1000 * 1e-2 * bead_diameter / 1e-3, shear = bead_diameter * 2 / (2 * 1e-2);
+  const double mei = (1 - 0.3314 * std::sqrt(shear)) * std::exp(-Re / 10) + 0.3314 * std::sqrt(shear);
+  const double lift = 1.615 * bead_diameter * bead_diameter * std::sqrt(1000 * 1e-3 / 2) * mei * 1e-2 * 2;
+  EXPECT_NEAR(force.x, 0, 1e-20);
+  EXPECT_NEAR(force.y / (bead_volume * 100 + lift), 1, 1e-6);
+  EXPECT_NEAR(force.z / 3e-5, 1, 1e-9);
+  const WindowImpulses impulses = over_ranks(forces.impulses(), scene.dem->world());
+  EXPECT_NEAR(impulses.drag.y / (step * lift), 1, 1e-6);
+  EXPECT_NEAR(impulses.stress.y / (step * bead_volume * 100), 1, 1e-12);
+  double counts[2] = {forces.closures().at(0).second.evaluations, forces.closures().at(0).second.outside};
+  MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPI_DOUBLE, MPI_SUM, scene.dem->world());
+  EXPECT_EQ(counts[0], 1);
+  EXPECT_EQ(counts[1], 0);
 }
 
 // The impulse of the last window that is still owed arrives in full: rate times beta of that window.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coupler/closures/drag.hpp"
+#include "coupler/closures/lift.hpp"
 #include "tests/support/record.hpp"
 
 namespace demvof::test {
@@ -64,7 +65,8 @@ double carman_kozeny(double reynolds, double eps) {
 Record& record() {
   static Record record(
       "closures", "Drag laws against their limits",
-      "Six drag laws against what their authors built in: Stokes's drag, the pressure drops of Ergun and of "
+      "Six drag laws and the lift against what their authors built in: Stokes's drag, the pressure drops of "
+      "Ergun and of "
       "Carman and Kozeny, Wen and Yu's suspension, Newton's range, the single sphere for void fraction 1; "
       "positivity, growth and continuity over Re 1e-6 to 1e5 and void fractions 0.3 to 1. The jump of "
       "Gidaspow's law at void fraction 0.8 is measured.",
@@ -205,6 +207,45 @@ TEST(DragLaws, MeasureGidaspowsJump) {
   EXPECT_NEAR(jump(100), -0.423, 1e-3);
   EXPECT_NEAR(jump(1e4), -0.728, 1e-3);
   record().note("gidaspow: jump at eps = 0.8, Re = 100", jump(100));
+}
+
+constexpr double shear = 5;  // 1/s
+
+// Saffman's lift of a sphere in the flow u_x = shear y: 1.615 mu d slip sqrt(rho shear d^2 / mu), towards the
+// faster fluid when the sphere lags.
+TEST(Lift, IsSaffmansForSlowFlow) {
+  const double slip = 1e-9;
+  const Vec3 force = saffman_mei(diameter, density, viscosity, {slip, 0, 0}, {0, 0, -shear});
+  const double saffman =
+      1.615 * viscosity * diameter * slip * std::sqrt(density * shear * diameter * diameter / viscosity);
+  // What Mei's factor leaves at small Re: 0.3314 sqrt(a) Re/10.
+  const double left = 0.3314 * std::sqrt(shear_over_slip(diameter, slip, shear)) *
+                      (density * slip * diameter / viscosity) / 10;
+  record().at_most("lift: against Saffman's for Re -> 0", std::abs(force.y / saffman / (1 + left) - 1), 1e-6);
+  EXPECT_EQ(force.x, 0);
+  EXPECT_EQ(force.z, 0);
+  EXPECT_GT(force.y, 0);
+}
+
+// Mei (1992): f for a = 0.1 at Re = 10 and 100, worked out by hand.
+TEST(Lift, FollowsMei) {
+  EXPECT_NEAR(mei_factor(10, 0.1), (1 - 0.104798) * 0.367879 + 0.104798, 1e-6);
+  EXPECT_NEAR(mei_factor(100, 0.1), 0.0524 * std::sqrt(10.0), 1e-12);
+  EXPECT_NEAR(mei_factor(1e-9, 0.1), 1, 1e-9);
+}
+
+TEST(Lift, IsFiniteAndOddInTheSlip) {
+  EXPECT_EQ(norm(saffman_mei(diameter, density, viscosity, {}, {0, 0, shear})), 0);
+  EXPECT_EQ(norm(saffman_mei(diameter, density, viscosity, {1, 0, 0}, {})), 0);
+  for (double exponent = -12; exponent <= 2; ++exponent)
+    for (const double rotation : {1e-9, 1.0, 1e6}) {
+      const double slip = std::pow(10, exponent);
+      const Vec3 there = saffman_mei(diameter, density, viscosity, {slip, 0, 0}, {0, rotation, 0});
+      const Vec3 back = saffman_mei(diameter, density, viscosity, {-slip, 0, 0}, {0, rotation, 0});
+      ASSERT_TRUE(std::isfinite(there.z) && there.z > 0) << slip << ' ' << rotation;
+      EXPECT_EQ(there.z, -back.z);
+      EXPECT_EQ(there.x, 0);  // no work on the slip
+    }
 }
 
 TEST(DragLaws, AreDrawn) {

@@ -67,6 +67,55 @@ TEST(ImplicitDrag, IsFirstOrderForNonlinearDrag) {
   EXPECT_NEAR(std::log2(error(40) / error(80)), 1, 0.05);
 }
 
+// (m + m_a) dv/dt = beta (u - v) + F + m_a Du/Dt has an exact solution: any step gives it, for a particle of
+// a hundredth of the fluid's density too, whose added mass is fifty times its own.
+TEST(ImplicitDrag, IsExactWithAddedMass) {
+  const Vec3 fluid{0.3, 0, -0.1}, force{1e-4, -2e-4, 3e-5}, acceleration{2, 0, 9};
+  for (const double density_ratio : {0.01, 0.5, 1.0, 2.5, 2500.0})
+    for (const double beta : {0.0, 1e-6, 1e-3, 10.0}) {
+      const double added = 0.5 * mass / density_ratio, inertia = mass + added, end = 1e-3;
+      const Vec3 others = force + added * acceleration, start{0.01, 0.02, -0.5};
+      const Vec3 exact =
+          beta > 0 ? fluid + others / beta + std::exp(-beta * end / inertia) * (start - fluid - others / beta)
+                   : start + end / inertia * others;
+      for (const int steps : {1, 17}) {
+        Vec3 velocity = start;
+        for (int n = 0; n < steps; ++n) {
+          const Vec3 drag = demvof::implicit_drag(beta, fluid - velocity, others, inertia, end / steps);
+          const Vec3 mean = (drag + others) / inertia;
+          const Vec3 given = drag + added * (acceleration - mean);  // to m itself, with force
+          velocity += (given + force) * (end / steps / mass);
+        }
+        const double scale = norm(exact) + norm(start);
+        EXPECT_LT(norm(velocity - exact), 1e-12 * scale / std::min(1.0, density_ratio))
+            << density_ratio << ' ' << beta << ' ' << steps;
+      }
+    }
+}
+
+// A light sphere let go under water: (rho_p - rho) g / (rho_p + C_m rho), not -99 g.
+TEST(ImplicitDrag, StartsALightSphereWithItsAddedMass) {
+  for (const double ratio : {0.01, 0.1, 0.5, 2.0}) {
+    const double added = 0.5 * mass / ratio, gravity = -9.81;
+    const Vec3 others{0, 0, mass * gravity * (1 - 1 / ratio)};  // weight and buoyancy
+    const Vec3 mean = (demvof::implicit_drag(0, {}, others, mass + added, 1e-3) + others) / (mass + added);
+    EXPECT_NEAR(mean.z / (gravity * (ratio - 1) / (ratio + 0.5)), 1, 1e-14) << ratio;
+  }
+}
+
+// J of a window, drag and added mass, answers to the fluid's velocity as the finite difference of the exact
+// solution does.
+TEST(DragResponse, CountsTheAddedMass) {
+  const double window = 1e-3, added = 3 * mass;
+  for (const double beta : {1e-6, 1e-2, 1e3}) {
+    const auto taken = [&](double u) {  // momentum that m gains from rest
+      return mass * u * -std::expm1(-beta * window / (mass + added));
+    };
+    EXPECT_NEAR(demvof::drag_response(beta, mass, window, 0, added) / (taken(1) / window), 1, 1e-12);
+    EXPECT_EQ(demvof::drag_response(beta, mass, window, 1, added), beta);
+  }
+}
+
 TEST(DragResponse, IsThatOfAFreeOrAHeldParticle) {
   const double window = 1e-3;
   for (const double beta : {1e-6, 1e-2, 1e3}) {

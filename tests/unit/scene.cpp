@@ -56,7 +56,7 @@ TEST(ScenePlan, GivesEveryDecisionOnceWithOneSentence) {
       EXPECT_EQ(d.reason.back(), '.') << d.reason;
       names.push_back(d.decision);
     }
-    EXPECT_EQ(names.size(), 9u);
+    EXPECT_EQ(names.size(), 14u);
   }
 }
 
@@ -178,6 +178,27 @@ TEST(ScenePlan, SaysWhichForcesAct) {
   EXPECT_FALSE(decision(scene, "drag").on);
   EXPECT_EQ(decision(scene, "drag").reason, "It is not named in forces.");
   EXPECT_TRUE(decision(scene, "pressure-gradient force").on);
+  for (const char* name : {"viscous stress on particles", "added mass", "lift",
+                           "capillary force on particles", "constant force on particles"})
+    EXPECT_EQ(decision(scene, name).reason, "It is not named in forces.") << name;
+}
+
+TEST(ScenePlan, NamesTheForcesThatAct) {
+  ForceParameters forces;
+  forces.drag = DragLaw::rong;
+  forces.viscous_stress = forces.capillary = true;
+  forces.added_mass = 0.5;
+  forces.lift = LiftLaw::saffman_mei;
+  forces.constant = {0, 1e-6, 0};
+  SceneFacts facts = three_phases();
+  const Scene scene = plan_scene({}, facts, forces);
+  for (const char* name :
+       {"drag (rong)", "viscous stress on particles", "added mass (0.5)", "lift (saffman_mei)",
+        "capillary force on particles", "constant force on particles"})
+    EXPECT_TRUE(decision(scene, name).on) << name;
+  facts.surface_tension = 0;
+  EXPECT_EQ(decision(plan_scene({}, facts, forces), "capillary force on particles").reason,
+            "It is named in forces, but the run has no surface tension.");
 }
 
 TEST(ScenePlan, NeverExchangesEmptyBulkCells) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What forces beyond drag and pressure need to know of the fluid.
+//
+//   div tau               tau = mu_eff (grad u + grad u^T), by the operator of the momentum equation with eps
+//   = 1 sigma kappa grad a    face values of the momentum equation, reconstructed in the cell as grad p is:
+//   where
+//                         they balance (a drop at rest), a particle feels neither
+//   Du/Dt                 (u - u_0)/dt + u.grad u, u_0 one time step before
+//   curl u                from the same grad u
+//
+// mu_eff viscosity of the mixture with turbulence, Pa s; sigma surface tension, N/m; kappa curvature, 1/m; a
+// liquid fraction.
+
+#include "foam_side/fluid_gradients.hpp"
+
+namespace demvof {
+namespace {
+
+Foam::vectorField viscous_force(Flow& flow) {
+  // The matrix is that of -div tau; applied to u it gives its value per volume.
+  const tmp<volVectorField> force = flow.turbulence->divDevRhoReff(flow.rho, flow.U) & flow.U;
+  return -force().primitiveField();
+}
+
+Foam::vectorField capillary_force(const Flow& flow) {
+  const surfaceScalarField pull(flow.mixture.surfaceTensionForce() * flow.mesh.magSf());
+  return (*flow.reconstruct)([&](const auto& at, label) { return at(pull); });
+}
+
+Foam::vectorField curl(const Foam::tensorField& gradient) {
+  Foam::vectorField curl(gradient.size());
+  forAll(curl, cell) {
+    const Foam::tensor& g = gradient[cell];  // g.xy() = d(u_y)/dx
+    curl[cell] = vector(g.yz() - g.zy(), g.zx() - g.xz(), g.xy() - g.yx());
+  }
+  return curl;
+}
+
+}  // namespace
+
+FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
+  const label cells = flow.mesh.nCells();
+  FluidGradients found{Foam::vectorField(cells, Foam::Zero), Foam::vectorField(cells, Foam::Zero),
+                       Foam::vectorField(cells, Foam::Zero)};
+  if (forces.viscous_stress) found.stress_force += viscous_force(flow);
+  if (forces.capillary && flow.scene.surface_tension) found.stress_force += capillary_force(flow);
+
+  const bool accelerates = forces.added_mass > 0 && flow.clock.steps > 0;
+  if (!accelerates && forces.lift == LiftLaw::none) return found;
+  const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
+  const Foam::tensorField& g = gradient().primitiveField();
+  if (forces.lift != LiftLaw::none) found.vorticity = curl(g);
+  if (accelerates) {
+    const Foam::vectorField& u = flow.U.primitiveField();
+    found.acceleration = (u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue() + (u & g);
+  }
+  return found;
+}
+
+}  // namespace demvof
