@@ -45,6 +45,17 @@ class Averaging {
   std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned,
                                       const CellValues<BulkFluidGradients>* gradients = nullptr);
 
+  /// Records of this rank's cells at each local particle: their mean with the weights of the last
+  /// deposit, cells without a record counting as T{}. Collective.
+  template <class T>
+  std::vector<T> sample_records(const CellValues<T>& owned) const {
+    const std::vector<T> cells = touched_->fetch_from_owners(owned, T{});
+    std::vector<T> means(weights_.particles());
+    demvof::sample(weights_, reinterpret_cast<const double*>(cells.data()), row_width<T>(),
+                   reinterpret_cast<double*>(means.data()));
+    return means;
+  }
+
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
   /// Local particles of the last deposit that lay outside the bulk grid: they count in its nearest cells.
   long outside() const { return outside_; }

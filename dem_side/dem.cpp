@@ -194,7 +194,7 @@ void Dem::add_fix(std::vector<std::string> words) {
 void Dem::add_particle_rows(const std::string& name, int width) {
   // no restart data, no communication to ghosts in either direction, zeros for new particles
   std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "no", "no", "no"};
-  words.insert(words.end(), width, "0.0");
+  words.insert(words.end(), std::max(width, 2), "0.0");  // LIGGGHTS takes no vector of one
   add_fix(std::move(words));
 }
 

@@ -15,7 +15,7 @@ namespace {
 // Sums over particles and cells; plain doubles, so that one reduction does for all of them.
 struct Sums {
   double count = 0, waiting_for_fluid = 0, outside_bulk_grid = 0;
-  double mass = 0, solid_volume = 0, solid_volume_bulk = 0;
+  double mass = 0, solid_volume = 0, solid_volume_bulk = 0, replaced_volume = 0;
   double kinetic_energy = 0, potential_energy = 0;
   WindowImpulses impulses;
   Vec3 drag_impulse_bulk, unplaced_left_over;
@@ -76,7 +76,7 @@ void Report::count_changes(long now) {
   count_ = now;
 }
 
-std::string Report::window(const FluidForces& forces, const Averaging& averaging,
+std::string Report::window(const FluidForces& forces, const Averaging& averaging, double replaced_volume,
                            const WallSeconds& seconds) {
   const ParticleArrays particles = dem_.particles();
   const Vec3 gravity = dem_.gravity();
@@ -100,6 +100,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
     sums.solid_volume_bulk += cell.solid_volume;
     sums.drag_impulse_bulk += cell.drag_impulse;
   }
+  sums.replaced_volume = replaced_volume;
   sums.impulses = forces.impulses();
   sums.waiting_for_fluid = static_cast<double>(forces.waiting_for_fluid());
   sums.outside_bulk_grid = static_cast<double>(averaging.outside());
@@ -119,6 +120,7 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
       {"mass", sums.mass},
       {"solid_volume", sums.solid_volume},
       {"solid_volume_bulk", sums.solid_volume_bulk},
+      {"replaced_volume", sums.replaced_volume},
       {"kinetic_energy", sums.kinetic_energy},
       {"potential_energy", sums.potential_energy},
       {"max_speed", extremes.max_speed},

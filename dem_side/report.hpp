@@ -39,6 +39,8 @@ class Report {
   ///   momentum                       of the half steps (forces.hpp), kg m/s; changes by
   ///     drag_impulse + pressure_impulse + left_over_given + stress_impulse + constant_impulse - held_impulse
   ///     + contact_impulse + gravity_impulse
+  ///   replaced_volume                of particles that are liquid on the fine mesh, m3: in solid_volume, not
+  ///                                  in solid_volume_bulk
   ///   drag_impulse_bulk              the same as drag_impulse unless particles were lost, N s
   ///   left_over_unplaced             left-over impulse of cells without drag, given to nobody, N s
   ///   closures                       by name: evaluations in this window, and how many of them were outside
@@ -47,7 +49,9 @@ class Report {
   ///   steps                          DEM steps of this window
   ///   seconds                        dem, averaging, exchange, waiting: of rank 0, since the start
   ///   peak_memory_bytes              sum over ranks
-  std::string window(const FluidForces& forces, const Averaging& averaging, const WallSeconds& seconds);
+  /// replaced_volume: of this rank.
+  std::string window(const FluidForces& forces, const Averaging& averaging, double replaced_volume,
+                     const WallSeconds& seconds);
 
   long lost() const { return lost_; }
   long count() const { return count_; }

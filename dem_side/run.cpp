@@ -18,6 +18,7 @@
 #include "dem_side/forces.hpp"
 #include "dem_side/output.hpp"
 #include "dem_side/particle_grid.hpp"
+#include "dem_side/replacement.hpp"
 #include "dem_side/report.hpp"
 #include "dem_side/survivor.hpp"
 #include "dem_side/window_steps.hpp"
@@ -68,6 +69,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   install_signal_handlers();
   const int steps = steps_per_window(coupling.window, dem.time_step());
   FluidForces forces(dem, parameters.forces);
+  std::optional<Replacement> replacement;
+  if (coupling.phase_interchange == PhaseInterchange::replacement)
+    replacement.emplace(dem, coupling.interchange_speed);
   dem.set_up();
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
@@ -79,8 +83,10 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Link link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
   averaging.deposit(dem.particles(), forces.contributions());
-  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
-                 facts(dem, averaging, world));
+  const auto fluid_facts = nlohmann::json::parse(
+      link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
+                     facts(dem, averaging, world)));
+  if (!fluid_facts.value("two_fluids", false)) replacement.reset();  // there is no interface
   if (options.check) {
     link.close();
     return exit_done;
@@ -95,7 +101,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   output.write(0, coupling.window, false, forces, averaging, {});
   WallSeconds seconds;
   link.send(averaging.deposited());
-  link.swap_text(report.window(forces, averaging, seconds));
+  double replaced_volume = 0;  // m3, of this rank
+  link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
 
   const long windows = std::lround(coupling.end_time / coupling.window);
   bool go_on = true;
@@ -108,6 +115,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
       const Stopwatch watch(seconds.averaging);
       forces.begin_window(averaging.sample(fluid, gradients ? &*gradients : nullptr), coupling.window);
     }
+    if (replacement)
+      replacement->begin_window(averaging.sample_records(link.receive<BulkInterface>()), coupling.window);
     run_stage().set("DEM steps");
     {
       const Stopwatch watch(seconds.dem);
@@ -117,12 +126,15 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     run_stage().set("end of the window", time);
     {
       const Stopwatch watch(seconds.averaging);
-      averaging.deposit(dem.particles(), forces.contributions());
+      std::vector<BulkParticles> contributions = forces.contributions();
+      if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
+      averaging.deposit(dem.particles(), contributions);
     }
     link.send(averaging.deposited());
+    if (replacement) link.send(replacement->droplets(grid, link.mine()));
     seconds.exchange = link.statistics().exchange_seconds;
     seconds.waiting = link.statistics().waiting_seconds;
-    link.swap_text(report.window(forces, averaging, seconds));
+    link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
     go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
 
     survivor.window(n, n * steps, report.count(), seconds.dem, seconds.waiting);

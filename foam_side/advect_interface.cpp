@@ -59,28 +59,29 @@ tmp<surfaceScalarField> interface_normal(Flow& flow) {
 }
 
 /// Speed of compression times eps, m/s; none through the boundary.
-tmp<surfaceScalarField> compression_speed(const Flow& flow) {
-  tmp<surfaceScalarField> speed = flow.mixture.cAlpha() * Foam::mag(flow.phi / flow.mesh.magSf());
+tmp<surfaceScalarField> compression_speed(const Flow& flow, const surfaceScalarField& phi) {
+  tmp<surfaceScalarField> speed = flow.mixture.cAlpha() * Foam::mag(phi / flow.mesh.magSf());
   for (auto& patch : speed.ref().boundaryFieldRef())
     if (!patch.coupled()) patch == 0;
   return speed;
 }
 
 /// High-order flux of alpha with compression, before MULES limits it, m3/s.
-tmp<surfaceScalarField> unlimited_flux(Flow& flow, const surfaceScalarField& speed) {
+tmp<surfaceScalarField> unlimited_flux(Flow& flow, const surfaceScalarField& phi,
+                                       const surfaceScalarField& speed) {
   const surfaceScalarField relative(speed * interface_normal(flow));
-  return fvc::flux(flow.phi, flow.alpha, "div(phi,alpha)") +
+  return fvc::flux(phi, flow.alpha, "div(phi,alpha)") +
          fvc::flux(-fvc::flux(-relative, flow.mixture.alpha2(), "div(phirb,alpha)"), flow.alpha,
                    "div(phirb,alpha)");
 }
 
 /// Implicit upwind step; returns its flux.
 template <class Weight>
-tmp<surfaceScalarField> upwind_step(Flow& flow, const Weight& eps) {
+tmp<surfaceScalarField> upwind_step(Flow& flow, const surfaceScalarField& phi, const Weight& eps) {
   const scalarField rate(flow.mesh.V().field() / flow.time.deltaTValue());
   Foam::fvScalarMatrix equation(
-      Foam::fv::gaussConvectionScheme<scalar>(flow.mesh, flow.phi, Foam::upwind<scalar>(flow.mesh, flow.phi))
-          .fvmDiv(flow.phi, flow.alpha));
+      Foam::fv::gaussConvectionScheme<scalar>(flow.mesh, phi, Foam::upwind<scalar>(flow.mesh, phi))
+          .fvmDiv(phi, flow.alpha));
   equation.diag() += eps.field() * rate;
   equation.source() += eps.oldTime().field() * rate * flow.alpha.oldTime().primitiveField();
   equation.solve();
@@ -89,17 +90,18 @@ tmp<surfaceScalarField> upwind_step(Flow& flow, const Weight& eps) {
 
 /// One alpha step of the length of time's deltaT; returns the flux of liquid, m3/s.
 template <class Weight>
-tmp<surfaceScalarField> advance_alpha(Flow& flow, const AlphaControls& controls,
-                                      const surfaceScalarField& speed, const Weight& eps) {
+tmp<surfaceScalarField> advance_alpha(Flow& flow, const surfaceScalarField& phi,
+                                      const AlphaControls& controls, const surfaceScalarField& speed,
+                                      const Weight& eps) {
   volScalarField& alpha = flow.alpha;
   volScalarField& alpha2 = flow.mixture.alpha2();
   tmp<surfaceScalarField> flux;
   if (controls.semi_implicit) {
-    flux = upwind_step(flow, eps);
+    flux = upwind_step(flow, phi, eps);
     alpha2 = 1.0 - alpha;
   }
   for (label corrector = 0; corrector < controls.correctors; ++corrector) {
-    tmp<surfaceScalarField> target = unlimited_flux(flow, speed);
+    tmp<surfaceScalarField> target = unlimited_flux(flow, phi, speed);
     if (controls.semi_implicit) {
       surfaceScalarField correction(target() - flux());
       const bool damped = corrector > 0;  // half of each further correction, for convergence
@@ -110,7 +112,7 @@ tmp<surfaceScalarField> advance_alpha(Flow& flow, const AlphaControls& controls,
       flux.ref() += (damped ? 0.5 : 1.0) * correction;
     } else {
       flux = target;
-      Foam::MULES::explicitSolve(eps, alpha, flow.phi, flux.ref(), Foam::oneField(), Foam::zeroField());
+      Foam::MULES::explicitSolve(eps, alpha, phi, flux.ref(), Foam::oneField(), Foam::zeroField());
     }
     alpha2 = 1.0 - alpha;
   }
@@ -118,19 +120,19 @@ tmp<surfaceScalarField> advance_alpha(Flow& flow, const AlphaControls& controls,
 }
 
 /// All alpha (sub-)steps of a time step; returns the mean flux of liquid, m3/s.
-/// part(a, b): weight of the part of the step from fraction a to fraction b.
+/// phi: flux of the fluid. part(a, b): weight of the part of the step from fraction a to fraction b.
 template <class Part>
-tmp<surfaceScalarField> advance_alpha_in_parts(Flow& flow, const Part& part) {
+tmp<surfaceScalarField> advance_alpha_in_parts(Flow& flow, const surfaceScalarField& phi, const Part& part) {
   const AlphaControls controls(flow.mesh.solverDict(flow.alpha.name()));
-  const tmp<surfaceScalarField> speed = compression_speed(flow);
+  const tmp<surfaceScalarField> speed = compression_speed(flow, phi);
   const label n = controls.sub_cycles;
-  if (n <= 1) return advance_alpha(flow, controls, speed(), part(0, 1));
+  if (n <= 1) return advance_alpha(flow, phi, controls, speed(), part(0, 1));
 
   tmp<surfaceScalarField> mean;
   label done = 0;
   for (Foam::subCycle<volScalarField> cycle(flow.alpha, n); !(++cycle).end(); ++done) {
     tmp<surfaceScalarField> flux =
-        advance_alpha(flow, controls, speed(), part(double(done) / n, double(done + 1) / n));
+        advance_alpha(flow, phi, controls, speed(), part(double(done) / n, double(done + 1) / n));
     if (mean.valid())
       mean.ref() += flux;
     else
@@ -153,6 +155,7 @@ void carry_void_fraction(Flow& flow) {
 void update_mixture(Flow& flow) {
   flow.mixture.incompressibleTwoPhaseMixture::correct();
   flow.rho == flow.alpha* flow.mixture.rho1() + flow.mixture.alpha2() * flow.mixture.rho2();
+  if (flow.ghost) add_ghost_density(flow);
 }
 
 void update_face_force(Flow& flow) {
@@ -164,6 +167,18 @@ void update_face_force(Flow& flow) {
   }
 }
 
+/// The alpha step between particles; returns the flux of liquid. phi: flux of the fluid.
+tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScalarField& phi,
+                                                  const volScalarField& eps) {
+  // MULES takes its bounded upwind flux from the present alpha: in a further outer corrector that has
+  // to be the one of the step's start. (interFoam starts from the last iterate, and is not bounded.)
+  if (!flow.pimple.firstIter()) flow.alpha = flow.alpha.oldTime();
+  return advance_alpha_in_parts(
+      flow, phi, [&start = eps.oldTime().primitiveField(), &end = eps.primitiveField()](double a, double b) {
+        return StepPorosity(start, end, a, b);
+      });
+}
+
 }  // namespace
 
 void advect_interface(Flow& flow) {
@@ -173,21 +188,20 @@ void advect_interface(Flow& flow) {
     if (!flow.face_force.valid()) update_face_force(flow);
     return;
   }
-  tmp<surfaceScalarField> liquid_flux;
-  if (flow.porosity) {
-    // MULES takes its bounded upwind flux from the present alpha: in a further outer corrector that has
-    // to be the one of the step's start. (interFoam starts from the last iterate, and is not bounded.)
-    if (!flow.pimple.firstIter()) flow.alpha = flow.alpha.oldTime();
-    const volScalarField& eps = flow.porosity->eps;
-    liquid_flux =
-        advance_alpha_in_parts(flow, [&start = eps.oldTime().primitiveField(), &end = eps.primitiveField()](
-                                         double a, double b) { return StepPorosity(start, end, a, b); });
+  tmp<surfaceScalarField> heavy_flux;  // what has the liquid's density, m3/s
+  if (flow.ghost) {
+    carry_ghost(flow);
+    const surfaceScalarField fluid_flux(flow.phi - flow.ghost->flux);
+    heavy_flux = advance_between_particles(flow, fluid_flux, flow.ghost->eps) + flow.ghost->flux;
+  } else if (flow.porosity) {
+    heavy_flux = advance_between_particles(flow, flow.phi, flow.porosity->eps);
   } else {
-    liquid_flux = advance_alpha_in_parts(flow, [](double, double) { return Foam::geometricOneField(); });
+    heavy_flux =
+        advance_alpha_in_parts(flow, flow.phi, [](double, double) { return Foam::geometricOneField(); });
   }
   const dimensionedScalar& rho1 = flow.mixture.rho1();
   const dimensionedScalar& rho2 = flow.mixture.rho2();
-  flow.rho_phi = (rho1 - rho2) * liquid_flux + rho2 * flow.phi;
+  flow.rho_phi = (rho1 - rho2) * heavy_flux + rho2 * flow.phi;
   update_mixture(flow);
   update_face_force(flow);
 }

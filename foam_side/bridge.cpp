@@ -260,7 +260,7 @@ CellValues<BulkFluid> Bridge::bulk_fluid() {
     sum.weighted_velocity += weight[piece.fine] * v * to_vec3(flow_.U[piece.fine]);
     sum.weight += weight[piece.fine] * v;
     sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
-    sum.eps_rho += eps_v * flow_.rho[piece.fine];
+    sum.eps_rho += eps_v * density(piece.fine);
     sum.eps_mu += eps_v * viscosity()[piece.fine];
     sum.eps += eps_v;
     sum.volume += v;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupler/config/parameters.hpp"
+#include "coupler/exchange/crossing.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/remap.hpp"
@@ -61,6 +62,15 @@ class Bridge {
 
   /// Derivatives on the same cells; only when a force needs them (need_gradients).
   CellValues<BulkFluidGradients> bulk_fluid_gradients() const;
+  /// Solid volume times velocity of the particles, per volume of each fine cell, m/s (phase interchange
+  /// `volume_adding`).
+  Foam::vectorField solid_flux_density() const;
+
+  /// The interface in the active bulk cells owned by this rank (phase interchange `replacement`).
+  CellValues<BulkInterface> bulk_interface() const;
+
+  /// Solid fraction that one particle gives to each fine cell, with the kernel of coupling.averaging.
+  scalarField solid_fraction_of(const Vec3& position, double volume) const;
 
   /// Impulses of the window just simulated, sums over all ranks, N s.
   struct Impulses {
@@ -83,6 +93,7 @@ class Bridge {
                      CellValues<BulkFluid>& fluid) const;
   std::vector<double> fine_weights() const;
   double eps(int cell) const { return flow_.porosity ? flow_.porosity->eps[cell] : 1.0; }
+  double density(int cell) const;  // of the fluid between the particles, kg/m3
 
   Flow& flow_;
   const CaseParameters& parameters_;

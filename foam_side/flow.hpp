@@ -18,6 +18,7 @@
 
 #include "coupler/scene/scene.hpp"
 #include "foam_side/crowding.hpp"
+#include "foam_side/ghost_liquid.hpp"
 #include "foam_side/openfoam.hpp"
 #include "foam_side/reconstruct.hpp"
 #include "foam_side/refinement.hpp"
@@ -84,6 +85,7 @@ struct Flow {
   volVectorField U;                        // between the particles, m/s
   std::unique_ptr<Porosity> porosity;      // only with scene.particles and scene.porosity
   std::unique_ptr<ParticleSource> source;  // only with scene.particles
+  std::unique_ptr<GhostLiquid> ghost;      // only with phase interchange volume_adding; without porosity
   surfaceScalarField phi;                  // eps_f u.S, m3/s: the one flux of continuity and alpha
   Foam::immiscibleIncompressibleTwoPhaseMixture mixture;
   volScalarField& alpha;       // liquid fraction of the fluid, -
@@ -152,6 +154,10 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 /// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
 /// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
+
+/// The same for any flux of volume.
+void fit_flux(const Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+              const scalarField* wanted_rate);
 
 /// Void fraction at faces that keeps a uniform flux uniform where eps jumps: 1/e = mean(1/eps).
 tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps);

@@ -77,6 +77,8 @@ Flow::Flow(const Foam::argList& args, const Scene& plan)
       U(file(time, mesh, "U", Foam::IOobject::MUST_READ), mesh),
       porosity(scene.particles && scene.porosity ? std::make_unique<Porosity>(mesh) : nullptr),
       source(scene.particles ? std::make_unique<ParticleSource>(mesh) : nullptr),
+      ghost(scene.interchange == PhaseInterchange::volume_adding ? std::make_unique<GhostLiquid>(mesh)
+                                                                 : nullptr),
       phi(file(time, mesh, "phi", Foam::IOobject::READ_IF_PRESENT),
           porosity ? face_void_fraction(porosity->eps) * fvc::flux(U) : fvc::flux(U)),
       mixture(U, phi),

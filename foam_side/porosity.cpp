@@ -96,6 +96,11 @@ tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
 }
 
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
+  fit_flux(flow, flow.phi, mobility, wanted_rate);
+}
+
+void fit_flux(const Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+              const scalarField* wanted_rate) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
   forAll(types, patch) {
     if (flow.p_rgh.boundaryField()[patch].fixesValue())
@@ -104,15 +109,15 @@ void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField*
   volScalarField potential(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
                            dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
   flow.mesh.setFluxRequired(potential.name());
-  if (potential.needReference()) Foam::adjustPhi(flow.phi, flow.U, potential);
+  if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
 
   while (flow.pimple.correctNonOrthogonal()) {
-    Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flow.phi));
+    Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
     if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;
     equation.setReference(0, 0);
     const bool last = flow.pimple.finalNonOrthogonalIter();
     equation.solve(flow.mesh.solver(potential.select(last)));
-    if (last) flow.phi -= equation.flux();
+    if (last) flux -= equation.flux();
   }
 }
 

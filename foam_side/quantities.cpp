@@ -19,6 +19,11 @@ double void_fraction(const Flow& flow, label cell) {
   return flow.porosity ? flow.porosity->eps[cell] : 1.0;
 }
 
+/// Share of the fluid in a cell's volume. (With volume_adding the equations see none, but the liquid does.)
+double fluid_share(const Flow& flow, label cell) {
+  return flow.ghost ? flow.ghost->eps[cell] : void_fraction(flow, cell);
+}
+
 /// Largest x of the alpha = 0.5 surface on this rank, m: where the line between two cell centres
 /// crosses it, or a boundary face that liquid touches.
 double liquid_front(const Flow& flow) {
@@ -58,6 +63,7 @@ Quantities fluid_quantities(const Flow& flow) {
   vector fastest_at = vector::zero;
   for (label cell = 0; cell < mesh.nCells(); ++cell) {
     const double v = mesh.V()[cell], eps = void_fraction(flow, cell), alpha = flow.alpha[cell];
+    const double share = fluid_share(flow, cell);
     const vector& u = flow.U[cell];
     const double uu = u & u;
     kinetic += 0.5 * eps * flow.rho[cell] * uu * v;
@@ -67,11 +73,11 @@ Quantities fluid_quantities(const Flow& flow) {
     squared_liquid += eps * alpha * uu * v;
     squared_gas += eps * (1 - alpha) * uu * v;
     pressure += flow.p[cell] * flow.p[cell] * v;
-    solid += (1 - eps) * v;
-    liquid += eps * alpha * v;
+    solid += (1 - share) * v;
+    liquid += share * alpha * v;
     below_surface += alpha * v;
     volume += v;
-    if (alpha > interface_band && alpha < 1 - interface_band) in_interface += eps * alpha * v;
+    if (alpha > interface_band && alpha < 1 - interface_band) in_interface += share * alpha * v;
     if (uu > fastest) {
       fastest = uu;
       fastest_at = mesh.C()[cell];
@@ -112,8 +118,19 @@ Quantities fluid_quantities(const Flow& flow) {
 double liquid_volume(const Flow& flow) {
   double liquid = 0;
   for (label cell = 0; cell < flow.mesh.nCells(); ++cell)
-    liquid += void_fraction(flow, cell) * flow.alpha[cell] * flow.mesh.V()[cell];
+    liquid += fluid_share(flow, cell) * flow.alpha[cell] * flow.mesh.V()[cell];
   return Foam::returnReduce(liquid, Foam::sumOp<double>());
+}
+
+bool solid_at_interface(const Flow& flow) {
+  constexpr double least_solid = 1e-6;
+  bool found = false;
+  for (label cell = 0; flow.porosity && cell < flow.mesh.nCells() && !found; ++cell) {
+    const double alpha = flow.alpha[cell];
+    found =
+        alpha > interface_band && alpha < 1 - interface_band && void_fraction(flow, cell) < 1 - least_solid;
+  }
+  return Foam::returnReduce(found, Foam::orOp<bool>());
 }
 
 Vec3 fluid_momentum(const Flow& flow) {

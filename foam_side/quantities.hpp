@@ -23,4 +23,7 @@ vector lowest_corner(const Flow& flow);
 /// Integral of eps rho u, over all ranks, N s. Collective.
 Vec3 fluid_momentum(const Flow& flow);
 
+/// True when particles displace fluid in cells that hold interface.
+bool solid_at_interface(const Flow& flow);
+
 }  // namespace demvof

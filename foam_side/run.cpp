@@ -18,6 +18,7 @@
 #include "foam_side/bridge.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
+#include "foam_side/replacement.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
 #include "foam_side/step_limits.hpp"
@@ -77,13 +78,21 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
   link.send(bridge.open_shares());
   bridge.take(link.receive<BulkParticles>());
   if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
+  if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
   flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
   record.start(flow, json::parse(link.swap_text("{}")));
   fields.write(flow, true);
 
   const bool concurrent = parameters.coupling.schedule == Schedule::concurrent;
+  const bool replaces = flow.scene.interchange == PhaseInterchange::replacement;
+  ReplacementBooks replacement;
+  std::vector<Droplet> droplets;
+  const auto solid_fraction_of = [&bridge](const Vec3& position, double volume) {
+    return bridge.solid_fraction_of(position, volume);
+  };
   const auto take_particles = [&] {
     CellValues<BulkParticles> particles = link.receive<BulkParticles>();
+    if (replaces) droplets = on_every_rank(link.receive<Droplet>().values);
     const Stopwatch watch(seconds.mapping);
     bridge.take(std::move(particles));
   };
@@ -95,6 +104,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
       const Stopwatch watch(seconds.mapping);
       link.send(bridge.bulk_fluid());
       if (need_gradients(parameters.forces)) link.send(bridge.bulk_fluid_gradients());
+      if (replaces) link.send(bridge.bulk_interface());
     }
     if (concurrent)
       link.deliver();  // the particles do this window now, the fluid with what they did in the last
@@ -103,8 +113,10 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
     {
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, static_cast<double>(n) * window);
+      replace_particles(flow, droplets, solid_fraction_of, replacement);
       bridge.spread_sources();  // the flux is fitted to the new window with its drag
       if (flow.porosity) set_porosity_target(flow, bridge.void_fraction());
+      if (flow.ghost) set_ghost_target(flow, bridge.void_fraction(), bridge.solid_flux_density());
       while (step_fluid(flow, &bridge)) {
       }
     }
@@ -118,6 +130,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
     done.implicit_impulse = bridge.impulses().implicit_part;
     if (flow.porosity) done.fine_solid_volume = bridge.spread().solid_volume;
     done.negative_cells = bridge.spread().negative_cells;
+    if (replaces) done.replacement = replacement;
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.particles = json::parse(link.swap_text("{}"));
     go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
@@ -219,12 +232,15 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     add_particle_facts(facts, particles);
     grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
   }
-  const Scene scene = plan_scene(parameters.scene, facts, parameters.forces);
+  const Scene scene =
+      plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
 
   run_stage().set("reading the fluid case");
   const std::unique_ptr<Flow> flow = open_flow(args, scene, refinement ? &*refinement : nullptr);
   install_signal_handlers();
   if (paired) require_mesh_fits(*grid, flow->mesh);
+  if (scene.interchange == PhaseInterchange::replacement)
+    require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
   if (options.check) {
     const ResolvedNumbers numbers =
         resolved_numbers(parameters, *flow, facts.surface_tension, grid, particles);

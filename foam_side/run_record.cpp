@@ -151,10 +151,14 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
                        vec3(p.at("held_impulse")) + (balance.pending - pending_);
     pending_ = balance.pending;
     balance.bulk_solid_volume = p.at("solid_volume_bulk");
-    balance.particle_volume = p.at("solid_volume");
+    balance.particle_volume = p.at("solid_volume").get<double>() - p.at("replaced_volume").get<double>();
     // With the concurrent schedule the mesh has the particles of the window before.
     if (!(balance.particles_changed && coupling.schedule == Schedule::concurrent))
       balance.fine_solid_volume = window.fine_solid_volume;
+  }
+  if (window.replacement) {
+    balance.liquid_in = window.replacement->liquid() - replaced_liquid_;
+    replaced_liquid_ = window.replacement->liquid();
   }
   ledger_->close(balance);
   const ConservationErrors& worst = ledger_->worst();
@@ -163,6 +167,8 @@ void RunRecord::close_books(const Window& window, double liquid_volume) {
 
 void RunRecord::window(const Flow& flow, const Window& window, double end_time) {
   const double liquid = liquid_volume(flow);
+  const bool crosses =
+      parameters_.coupling.phase_interchange == PhaseInterchange::none && solid_at_interface(flow);
   const long cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
   const double memory = Foam::returnReduce(static_cast<double>(peak_memory_bytes()), Foam::sumOp<double>());
   {
@@ -201,6 +207,14 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       last_particles_ = p;
     }
     close_books(window, liquid);
+    if (window.replacement) {
+      const ReplacementBooks& books = *window.replacement;
+      results.replacement = {books.became_liquid,      books.took_place_back,    books.liquid_in,
+                             books.liquid_out,         books.worst_volume_error, books.impulse,
+                             books.worst_impulse_error};
+    }
+    if (window.replacement) limits_.drop_resolution = window.replacement->worst_resolution;
+    limits_.crossing_windows += crosses;
   }
   const double time = flow.time.value();
   if (time > next_row_ - 0.5 * flow.time.deltaTValue() || time >= end_time) {
@@ -282,6 +296,15 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   if (limits_.gone_impulse > 0)
     lines.push_back(fmt::format("impulse of {:.3g} N s went with particles in the window in which they left",
                                 limits_.gone_impulse));
+  if (limits_.drop_resolution < drop_resolution * (1 - 1e-6))
+    lines.push_back(fmt::format(
+        "particles became liquid with {:.3g} fine cells per diameter: replacement needs {} for the shape "
+        "of the drop, refine the mesh at the interface",
+        limits_.drop_resolution, drop_resolution));
+  if (limits_.crossing_windows > 0)
+    lines.push_back(fmt::format(
+        "there were particles at the interface in {} windows, against coupling.phase_interchange: none",
+        limits_.crossing_windows));
   if (limits_.unplaced_left_over > 0)
     lines.push_back(fmt::format("left-over impulse of {:.3g} N s found no particle to receive it",
                                 limits_.unplaced_left_over));

@@ -19,6 +19,7 @@
 #include "coupler/output/results.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/quantities.hpp"
+#include "foam_side/replacement.hpp"
 
 namespace demvof {
 
@@ -44,12 +45,13 @@ class RunRecord {
 
   /// One window (with particles) or time step (without).
   struct Window {
-    long number = 0, planned = 0;             // planned 0: not known
-    Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
-    long active_cells = 0;                    // of the bulk grid
-    std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
-    long negative_cells = 0;                  // fine cells whose solid fraction was interpolated below 0
-    nlohmann::json particles;                 // dem_side's report; null without particles
+    long number = 0, planned = 0;                 // planned 0: not known
+    Vec3 explicit_impulse, implicit_impulse;      // that the fluid received, N s
+    long active_cells = 0;                        // of the bulk grid
+    std::optional<double> fine_solid_volume;      // as mapped to the mesh, m3; without porosity nothing is
+    long negative_cells = 0;                      // fine cells whose solid fraction was interpolated below 0
+    std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
+    nlohmann::json particles;                     // dem_side's report; null without particles
     FluidSeconds seconds;
     std::int64_t exchanged_bytes = 0, exchanged_cells = 0;
   };
@@ -73,6 +75,7 @@ class RunRecord {
   ProgressFile progress_;
   std::optional<Ledger> ledger_;
   double initial_potential_ = 0;  // J
+  double replaced_liquid_ = 0;    // in place of particles, at the end of the last window, m3
   Vec3 pending_;                  // received by one side, not yet by the other, N s
   Vec3 unplaced_;                 // of this, what found no particle at all
   long came_ = 0, gone_ = 0;      // particles inserted; left and lost; up to the last window
@@ -82,7 +85,8 @@ class RunRecord {
 
   /// Limits that acted, over the windows so far.
   struct Limits {
-    long relieved_cells = 0, waiting_particles = 0, negative_cells = 0;
+    long relieved_cells = 0, waiting_particles = 0, negative_cells = 0, crossing_windows = 0;
+    double drop_resolution = 1e9;                     // fewest cells per diameter
     double relieved_volume = 0, unplaced_volume = 0;  // m3
     double unplaced_left_over = 0, gone_impulse = 0;  // N s
   } limits_;

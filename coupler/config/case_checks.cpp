@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "coupler/config/read_case.hpp"
 
@@ -34,6 +35,7 @@ struct Checks {
   void files() const;
   void bulk_grid() const;
   void times() const;
+  void interchange() const;
   void scene() const;
 };
 
@@ -79,6 +81,19 @@ void Checks::times() const {
   }
 }
 
+void Checks::interchange() const {
+  const std::string key = "coupling.interchange_speed";
+  if (!sound({key, "coupling.window", "bulk_grid.lower", "bulk_grid.upper", "bulk_grid.cells"})) return;
+  double spacing = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    spacing =
+        std::min(spacing, (c.bulk_grid->upper[axis] - c.bulk_grid->lower[axis]) / c.bulk_grid->cells[axis]);
+  const double largest = spacing / c.coupling.window;
+  if (c.coupling.interchange_speed > largest)
+    add(key, fmt::format("{} m/s is above {:.6g} m/s, a bulk cell in a window: give 0 to {:.6g}",
+                         c.coupling.interchange_speed, largest, largest));
+}
+
 void Checks::scene() const {
   if (sound({"scene.particles"}) && c.scene.particles == Switch::on && !c.particles)
     add("scene.particles", "on is impossible: the case has no section particles");
@@ -109,6 +124,7 @@ void check_case(const CaseParameters& parameters, const std::map<std::string, So
   checks.files();
   checks.bulk_grid();
   checks.times();
+  checks.interchange();
   checks.scene();
 }
 

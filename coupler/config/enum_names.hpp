@@ -41,8 +41,11 @@ inline const EnumNames<Mapping> enum_names<Mapping> = {{Mapping::nearest, "neare
 template <>
 inline const EnumNames<Sharing> enum_names<Sharing> = {{Sharing::volume, "volume"}, {Sharing::mass, "mass"}};
 template <>
-inline const EnumNames<PhaseInterchange> enum_names<PhaseInterchange> = {{PhaseInterchange::porous, "porous"},
-                                                                         {PhaseInterchange::none, "none"}};
+inline const EnumNames<PhaseInterchange> enum_names<PhaseInterchange> = {
+    {PhaseInterchange::porous, "porous"},
+    {PhaseInterchange::volume_adding, "volume_adding"},
+    {PhaseInterchange::replacement, "replacement"},
+    {PhaseInterchange::none, "none"}};
 template <>
 inline const EnumNames<DragLaw> enum_names<DragLaw> = {{DragLaw::none, "none"},
                                                        {DragLaw::schiller_naumann, "schiller_naumann"},

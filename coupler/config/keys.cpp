@@ -207,8 +207,16 @@ std::vector<Key> make_keys() {
       key("coupling.sharing", one_of<Sharing>(), "How a bulk cell's source is shared among its fine cells.",
           DEMVOF_AT(coupling.sharing)),
       key("coupling.phase_interchange", one_of<PhaseInterchange>(),
-          "How particles cross the interface; porous: the void fraction stands in the alpha equation.",
+          "How particles cross the interface; porous: the void fraction stands in the alpha equation; "
+          "volume_adding: liquid fills the particles' volume; replacement: a particle that hits the "
+          "interface "
+          "becomes a drop of liquid on the fine mesh; none: no particle crosses it.",
           DEMVOF_AT(coupling.phase_interchange)),
+      key("coupling.interchange_speed", at_least(0, number("m/s")),
+          "With replacement: a particle that closes in on the interface no faster than this stays a "
+          "particle; "
+          "at most bulk spacing / window.",
+          DEMVOF_AT(coupling.interchange_speed)),
       changes_no_result(key("coupling.time_out", above(0, number("s")),
                             "A side that hears nothing from its partner for so long gives up (exit code 4).",
                             DEMVOF_AT(coupling.time_out))),

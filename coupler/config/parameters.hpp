@@ -45,7 +45,7 @@ enum class ExchangeScheme { explicit_drag, semi_implicit, conservative_implicit 
 enum class Kernel { centre, volume, linear, gaussian, diffusion };
 enum class Mapping { nearest, inverse_distance, cell_point, cell_point_face, conservative };
 enum class Sharing { volume, mass };
-enum class PhaseInterchange { porous, none };
+enum class PhaseInterchange { porous, volume_adding, replacement, none };
 
 struct AveragingParameters {
   Kernel kernel = Kernel::gaussian;
@@ -69,7 +69,8 @@ struct CouplingParameters {
   AveragingParameters averaging;
   MappingParameters mapping;
   PhaseInterchange phase_interchange = PhaseInterchange::porous;
-  double time_out = 600;  // s without a word from the partner before a side gives up
+  double interchange_speed = 0;  // replacement: slower impacts on the interface replace nothing, m/s
+  double time_out = 600;         // s without a word from the partner before a side gives up
 };
 
 enum class DragLaw { none, schiller_naumann, gidaspow, di_felice, koch_hill, beetstra, rong };

@@ -81,6 +81,15 @@ std::string results_json(const RunResults& r) {
   json["closures"] = Json::object();
   for (const auto& [closure, evaluations, outside] : r.closures)
     json["closures"][closure] = {{"evaluations", evaluations}, {"outside_range", outside}};
+  if (r.replacement)
+    json["replacement"] = {
+        {"became_liquid", r.replacement->became_liquid},
+        {"took_place_back", r.replacement->took_place_back},
+        {"liquid_in", r.replacement->liquid_in},
+        {"liquid_out", r.replacement->liquid_out},
+        {"volume_error", r.replacement->volume_error},
+        {"impulse", {r.replacement->impulse.x, r.replacement->impulse.y, r.replacement->impulse.z}},
+        {"impulse_error", r.replacement->impulse_error}};
   json["scene"] = scene(r.scene);
   json["quantities"] = Json::object();
   for (const auto& [quantity, value] : r.quantities) json["quantities"][quantity] = value;

@@ -68,6 +68,14 @@ struct RunResults {
     long evaluations = 0, outside = 0;  // outside the range the closure was fitted for
   };
   std::vector<ClosureUse> closures;  // over the run, all ranks
+  struct Replacement {
+    long became_liquid = 0, took_place_back = 0;  // particles
+    double liquid_in = 0, liquid_out = 0;         // m3
+    double volume_error = 0;                      // worst |change of liquid - V_p| / V_p, -
+    Vec3 impulse;                                 // that came with it to the fluid, N s
+    double impulse_error = 0;                     // against the change of the fluid's momentum, -
+  };
+  std::optional<Replacement> replacement;  // given with phase interchange `replacement`
 
   std::vector<Decision> scene;
   std::vector<std::pair<std::string, double>> quantities;  // names of history.csv, values at the end

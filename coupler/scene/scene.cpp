@@ -19,7 +19,8 @@ class Plan {
   bool particles();
   bool interface_advection();
   bool surface_tension();
-  bool porosity();
+  PhaseInterchange interchange(PhaseInterchange chosen);
+  bool porosity(PhaseInterchange interchange);
   bool turbulence();
   void forces(const ForceParameters& forces);
   void capillary_force(bool named, bool surface_tension);
@@ -111,8 +112,28 @@ bool Plan::surface_tension() {
   return decide(name, true, fmt::format("The fluid case's coefficient is {} N/m.", facts_.surface_tension));
 }
 
-bool Plan::porosity() {
+PhaseInterchange Plan::interchange(PhaseInterchange chosen) {
+  const std::string name = "phase interchange";
+  const auto none = [&](const std::string& reason) {
+    decide(name, false, reason);
+    return PhaseInterchange::none;
+  };
+  if (!with_particles_) return none("There are no particles.");
+  if (!facts_.two_fluids) return none("One fluid has no interface to cross.");
+  if (chosen == PhaseInterchange::none)
+    return none("The case file says coupling.phase_interchange: none: no particle crosses the interface.");
+  decide(name + " (" + name_of(chosen) + ")", true, "It is chosen in coupling.phase_interchange.");
+  return chosen;
+}
+
+bool Plan::porosity(PhaseInterchange interchange) {
   const std::string name = "porosity";
+  if (interchange == PhaseInterchange::volume_adding) {
+    if (forced_.porosity == Switch::on)
+      return force(name, "scene.porosity", Switch::on,
+                   "volume_adding fills the particles' volume with liquid");
+    return decide(name, false, "Phase interchange volume_adding fills the particles' volume with liquid.");
+  }
   const double limit = forced_.dilute_limit, fraction = facts_.largest_solid_fraction;
   if (forced_.porosity != Switch::automatic)
     return force(name, "scene.porosity", forced_.porosity, with_particles_ ? "" : "there are no particles");
@@ -144,7 +165,8 @@ bool Plan::turbulence() {
 
 }  // namespace
 
-Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces) {
+Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces,
+                 PhaseInterchange interchange) {
   Plan plan(forced, facts);
   Scene scene;
   scene.particles = plan.particles();
@@ -152,7 +174,8 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   scene.interface_advection = plan.interface_advection();
   scene.surface_tension = plan.surface_tension();
   plan.capillary_force(forces.capillary, scene.surface_tension);
-  scene.porosity = plan.porosity();
+  scene.interchange = plan.interchange(interchange);
+  scene.porosity = plan.porosity(scene.interchange);
   plan.empty_bulk_cells();
   scene.turbulence = plan.turbulence();
   if (!plan.impossible.empty()) throw InputError(plan.impossible);

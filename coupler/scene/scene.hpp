@@ -31,13 +31,15 @@ struct Scene {
   bool surface_tension = false;
   bool interface_advection = true;
   bool porosity = false;
+  PhaseInterchange interchange = PhaseInterchange::none;  // how particles cross the interface
   bool turbulence = false;
   std::vector<Decision> decisions;
 };
 
 /// Pure: the plan from the facts and what the case file forces.
 /// Throws InputError, one line per key, when the case file forces what the scene cannot have.
-Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces = {});
+Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const ForceParameters& forces = {},
+                 PhaseInterchange interchange = PhaseInterchange::porous);
 
 /// The decisions as a table for people, one line each: "on   surface tension   reason".
 std::string scene_table(const std::vector<Decision>& decisions);

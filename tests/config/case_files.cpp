@@ -58,6 +58,7 @@ coupling:
   exchange: semi_implicit
   sharing: volume
   phase_interchange: none
+  interchange_speed: 0.3
   time_out: 12
   averaging: {kernel: centre, width: 2.7e-3, maximum_solid_fraction: 0.6}
   mapping: {to_fine: nearest, to_bulk: nearest}
@@ -102,6 +103,7 @@ TEST(CaseFiles, FillEveryParameter) {
   EXPECT_EQ(c.coupling.exchange, ExchangeScheme::semi_implicit);
   EXPECT_EQ(c.coupling.sharing, Sharing::volume);
   EXPECT_EQ(c.coupling.phase_interchange, PhaseInterchange::none);
+  EXPECT_EQ(c.coupling.interchange_speed, 0.3);
   EXPECT_EQ(c.coupling.time_out, 12);
   EXPECT_EQ(c.coupling.averaging.kernel, Kernel::centre);
   EXPECT_EQ(c.coupling.averaging.width, 2.7e-3);

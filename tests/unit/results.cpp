@@ -113,6 +113,18 @@ TEST(Results, NumbersThatAreNotFiniteStayReadable) {
   EXPECT_TRUE(parsed(results)["conservation"]["momentum"].is_null());
 }
 
+TEST(Results, HaveReplacementsOnlyWhereTheSceneHasThem) {
+  RunResults results;
+  results.configuration = "{}";
+  EXPECT_FALSE(parsed(results).contains("replacement"));
+  results.replacement = RunResults::Replacement{3, 2, 3e-8, 2e-8, 1e-16, {0, 0, -1e-5}, 1e-15};
+  const auto replacement = parsed(results)["replacement"];
+  EXPECT_EQ(replacement["became_liquid"], 3);
+  EXPECT_EQ(replacement["took_place_back"], 2);
+  EXPECT_EQ(replacement["liquid_in"], 3e-8);
+  EXPECT_EQ(replacement["impulse"][2], -1e-5);
+}
+
 TEST(Results, RefusesAConfigurationThatIsNoJson) {
   RunResults results;
   results.configuration = "{window: ";

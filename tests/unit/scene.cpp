@@ -70,6 +70,30 @@ TEST(ScenePlan, IsPlainVofWithoutParticles) {
     EXPECT_EQ(decision(scene, name).reason, "There are no particles.") << name;
 }
 
+TEST(ScenePlan, HasAPhaseInterchangeWhereThereIsAnInterface) {
+  const auto interchange = [](const SceneFacts& facts, PhaseInterchange chosen) {
+    return plan_scene({}, facts, {}, chosen).interchange;
+  };
+  SceneFacts one_fluid = three_phases();
+  one_fluid.two_fluids = false;
+  SceneFacts no_particles = three_phases();
+  no_particles.particles = false;
+  for (const PhaseInterchange chosen : {PhaseInterchange::porous, PhaseInterchange::volume_adding,
+                                        PhaseInterchange::replacement, PhaseInterchange::none}) {
+    EXPECT_EQ(interchange(three_phases(), chosen), chosen);
+    EXPECT_EQ(interchange(one_fluid, chosen), PhaseInterchange::none);
+    EXPECT_EQ(interchange(no_particles, chosen), PhaseInterchange::none);
+  }
+  EXPECT_TRUE(plan_scene({}, three_phases(), {}, PhaseInterchange::replacement).porosity);
+}
+
+TEST(ScenePlan, FillsTheParticlesWithLiquidOrLeavesThemPorous) {
+  EXPECT_FALSE(plan_scene({}, three_phases(), {}, PhaseInterchange::volume_adding).porosity);
+  SceneParameters forced;
+  forced.porosity = Switch::on;
+  EXPECT_THROW(plan_scene(forced, three_phases(), {}, PhaseInterchange::volume_adding), InputError);
+}
+
 TEST(ScenePlan, LeavesParticlesOutOnDemand) {
   SceneParameters forced;
   forced.particles = Switch::off;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/replacement.hpp"
+
+#include "coupler/grid/bring_to_owners.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr const char* rows_name = "demvof_replaced";  // 1: this particle is liquid on the fine mesh
+
+}  // namespace
+
+Replacement::Replacement(Dem& dem, double least_speed) : dem_(dem), least_speed_(least_speed) {
+  dem_.add_particle_rows(rows_name, 1);
+}
+
+void Replacement::begin_window(const std::vector<BulkInterface>& seen, double window) {
+  const ParticleArrays particles = dem_.particles();
+  double* const* rows = dem_.particle_rows(rows_name);
+  decided_.clear();
+  for (int i = 0; i < particles.count; ++i) {
+    const Vec3 position = vec3(particles.position[i]), velocity = vec3(particles.velocity[i]);
+    double& replaced = rows[i][0];
+    const bool changes =
+        replaced > 0 ? seen[i].area == 0
+                     : hits_interface(seen[i], position, velocity, particles.radius[i], window, least_speed_);
+    if (!changes) continue;
+    replaced = 1 - replaced;
+    decided_.push_back({position, velocity, particles.radius[i], replaced > 0 ? 1.0 : -1.0});
+  }
+}
+
+CellValues<Droplet> Replacement::droplets(const BulkGrid& grid, const BulkPartition& partition) const {
+  CellValues<Droplet> mine{{}, decided_};
+  for (const Droplet& droplet : decided_) mine.cells.push_back(grid.id(grid.locate(droplet.position)));
+  return bring_to_owners(dem_.world(), partition, mine);
+}
+
+double Replacement::leave_out_replaced(std::vector<BulkParticles>& contributions) const {
+  double* const* rows = dem_.particle_rows(rows_name);
+  double volume = 0;
+  for (std::size_t i = 0; i < contributions.size(); ++i) {
+    if (rows[i][0] == 0) continue;
+    volume += contributions[i].solid_volume;
+    contributions[i].solid_volume = 0;
+  }
+  return volume;
+}
+
+}  // namespace demvof

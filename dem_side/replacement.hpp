@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <vector>
+
+#include "coupler/exchange/crossing.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+#include "dem_side/dem.hpp"
+
+namespace demvof {
+
+/// Phase interchange `replacement` [43]: which particles are liquid on the fine mesh. A particle that hits
+/// the interface (crossing.hpp) is replaced; once no interface is left in its bulk cells, on whichever
+/// side, it takes its place back. In between it moves and is dragged as ever, but displaces nothing: its
+/// volume is the liquid's. Calls with a communicator behind them are collective over dem_side.
+class Replacement {
+ public:
+  /// Before the DEM is set up. least_speed: delta_C, m/s.
+  Replacement(Dem& dem, double least_speed);
+
+  /// Decides at the start of a window. seen: the interface at each local particle, sampled with the
+  /// weights of its bulk cells. window: s.
+  void begin_window(const std::vector<BulkInterface>& seen, double window);
+
+  /// What begin_window decided, brought to the owners of the bulk cells.
+  CellValues<Droplet> droplets(const BulkGrid& grid, const BulkPartition& partition) const;
+
+  /// Takes the solid volume of replaced particles out of what they give to the bulk grid; returns it, m3.
+  double leave_out_replaced(std::vector<BulkParticles>& contributions) const;
+
+ private:
+  Dem& dem_;
+  double least_speed_;
+  std::vector<Droplet> decided_;  // at the start of this window, local particles
+};
+
+}  // namespace demvof

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scalar cell fields of a BoxCase run on one fluid rank, as arrays [x, y, z]."""
+import re
+
+import numpy
+
+
+def output_times(run):
+    """Names of the time folders that hold fields, in the order of time."""
+    folders = [f.name for f in (run.folder / "fluid").iterdir() if (f / "U").is_file()]
+    return sorted(folders, key=float)
+
+
+def cell_field(run, time, name, fine):
+    """time: a name of output_times; fine: cells of the fluid mesh in each direction."""
+    data = (run.folder / "fluid" / time / name).read_bytes()
+    uniform = re.search(rb"internalField\s+uniform\s+([^;]+);", data)
+    if uniform:
+        return numpy.full(fine, float(uniform.group(1)))
+    head = re.search(rb"internalField\s+nonuniform\s+List<scalar>\s+(\d+)\s*\(", data)
+    count = int(head.group(1))
+    values = numpy.frombuffer(data, dtype="<f8", count=count, offset=head.end())
+    return values.reshape(tuple(reversed(fine))).transpose()
+
+
+def surface_height(column, spacing):
+    """Height at which a column of cell values (bottom first) last falls through 0.5, m."""
+    above = numpy.flatnonzero((column[:-1] >= 0.5) & (column[1:] < 0.5))
+    if len(above) == 0:
+        return float("nan")
+    low = above[-1]
+    share = (column[low] - 0.5) / (column[low] - column[low + 1])
+    return float((low + 0.5 + share) * spacing)
