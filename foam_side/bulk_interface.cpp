@@ -63,7 +63,9 @@ Foam::vectorField Bridge::solid_flux_density() const {
 }
 
 scalarField Bridge::solid_fraction_of(const Vec3& position, double volume) const {
-  KernelWeights weights = kernel_weights(grid_, parameters_.coupling.averaging, {position});
+  constexpr double pi = 3.14159265358979323846;
+  const double radius = std::cbrt(3 * volume / (4 * pi));
+  KernelWeights weights = kernel_weights(grid_, parameters_.coupling.averaging, {position}, {radius});
   const std::vector<CellId>& touched = remap_->cells().cells();
   std::vector<int> place(weights.cells.size(), -1);  // in touched; -1: no cell of this rank is near
   std::vector<double> share(weights.cells.size(), 0.0);

@@ -156,7 +156,7 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
 /// The same for any flux of volume.
-void fit_flux(const Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
               const scalarField* wanted_rate);
 
 /// Void fraction at faces that keeps a uniform flux uniform where eps jumps: 1/e = mean(1/eps).

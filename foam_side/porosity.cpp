@@ -99,7 +99,7 @@ void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField*
   fit_flux(flow, flow.phi, mobility, wanted_rate);
 }
 
-void fit_flux(const Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
               const scalarField* wanted_rate) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
   forAll(types, patch) {

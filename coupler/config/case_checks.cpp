@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "coupler/config/enum_names.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {
@@ -82,6 +83,21 @@ void Checks::times() const {
 }
 
 void Checks::interchange() const {
+  const PhaseInterchange how = c.coupling.phase_interchange;
+  const bool liquid_particles =
+      how == PhaseInterchange::volume_adding || how == PhaseInterchange::replacement;
+  if (sound({"coupling.phase_interchange"}) && liquid_particles) {
+    if (c.coupling.schedule == Schedule::concurrent)
+      add("coupling.phase_interchange",
+          name_of(how) + " needs coupling.schedule: staggered, the fluid in the window of its particles");
+    const AveragingParameters& averaging = c.coupling.averaging;
+    if (how == PhaseInterchange::replacement && averaging.kernel == Kernel::diffusion)
+      add("coupling.phase_interchange",
+          "replacement needs a kernel that knows what one particle displaces: any but diffusion");
+    if (c.fluid.refinement)
+      add("coupling.phase_interchange",
+          name_of(how) + " needs a mesh that stays as it is: no fluid.refinement");
+  }
   const std::string key = "coupling.interchange_speed";
   if (!sound({key, "coupling.window", "bulk_grid.lower", "bulk_grid.upper", "bulk_grid.cells"})) return;
   double spacing = std::numeric_limits<double>::infinity();

@@ -55,7 +55,7 @@ def main():
                     "of the beads over the floor = 0.30982 m (paper, section 7.3) on every fine mesh: from the volumes "
                     "of liquid and beads, and from the liquid fraction between the beads (sum of alpha V over the "
                     "floor, and mean height of alpha = 0.5).",
-                    f"tests/Alltest {'--verification ' if long else ''}-- -R pair.level_rise")
+                    f"tests/Alltest {'--verification ' if long else ''}-- -R pair.level_rise{'_long' if long else ''}")
     for fine in meshes:
         cells = fine[0] * fine[1] * fine[2]
         run = rise(scratch("level_rise") / str(cells), demvof, fine, 1.5 if long else 0.9)

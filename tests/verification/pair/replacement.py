@@ -104,7 +104,7 @@ def main():
                     "given back equals its volume to 1e-10, the books of momentum close. Crater: depth, below the level "
                     "at the start, of alpha = 0.5 as seen from above on the axis through the impact (mean of the four "
                     "columns of cells around it) at 0.03 s; the paper's claim (7.2) is that 108k and 500k cells agree.",
-                    f"tests/Alltest {'--verification ' if is_long else ''}-- -R pair.replacement")
+                    f"tests/Alltest {'--verification ' if is_long else ''}-- -R pair.replacement{'_long' if is_long else ''}")
     (long if is_long else short)(record, sys.argv[1])
     return record.write()
 
