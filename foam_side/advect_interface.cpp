@@ -6,11 +6,13 @@
 //   eps u_c.S = c_alpha |phi| n.S/|S|,  n = grad alpha / |grad alpha|
 //
 // Both by the same flux, so alpha = 1 stays 1 and sum(eps alpha V) is kept to round-off. MULES keeps
-// alpha in [0, 1] with eps as its weight. In alpha sub-cycles eps is interpolated between the ends of
-// the step as plain arrays: the field's old-time value is the step's and must stay so.
-// Sources: Pozzetti & Peters 2018, eqs. 15-20, 36; Weller 2008 (interface compression).
+// alpha in [0, 1] with eps as its weight, whether its high-order flux is this one or, with
+// advectionScheme isoAdvection, the geometric one (geometric_flux.hpp). In alpha sub-cycles eps is
+// interpolated between the ends of the step as plain arrays: the field's old-time value is the step's and
+// must stay so. Sources: Pozzetti & Peters 2018, eqs. 15-20, 36; Weller 2008 (interface compression).
 
 #include "foam_side/flow.hpp"
+#include "foam_side/geometric_flux.hpp"
 
 namespace demvof {
 namespace {
@@ -34,9 +36,11 @@ class StepPorosity {
 
 struct AlphaControls {
   explicit AlphaControls(const Foam::dictionary& alpha)
-      : correctors(alpha.get<label>("nAlphaCorr")),
+      : geometric(alpha.lookupOrDefault<Foam::word>("advectionScheme", "MULES") == "isoAdvection"),
+        correctors(geometric ? 1 : alpha.get<label>("nAlphaCorr")),
         sub_cycles(alpha.get<label>("nAlphaSubCycles")),
         semi_implicit(alpha.lookupOrDefault("MULESCorr", false)) {}
+  bool geometric;  // flux from the cut of the interface instead of a compression flux
   label correctors, sub_cycles;
   bool semi_implicit;  // implicit upwind step first, MULES on the rest
 };
@@ -66,10 +70,11 @@ tmp<surfaceScalarField> compression_speed(const Flow& flow, const surfaceScalarF
   return speed;
 }
 
-/// High-order flux of alpha with compression, before MULES limits it, m3/s.
+/// High-order flux of alpha before MULES limits it, m3/s: geometric, or with compression.
 tmp<surfaceScalarField> unlimited_flux(Flow& flow, const surfaceScalarField& phi,
-                                       const surfaceScalarField& speed) {
-  const surfaceScalarField relative(speed * interface_normal(flow));
+                                       const AlphaControls& controls) {
+  if (controls.geometric) return geometric_flux(flow, phi);
+  const surfaceScalarField relative(compression_speed(flow, phi) * interface_normal(flow));
   return fvc::flux(phi, flow.alpha, "div(phi,alpha)") +
          fvc::flux(-fvc::flux(-relative, flow.mixture.alpha2(), "div(phirb,alpha)"), flow.alpha,
                    "div(phirb,alpha)");
@@ -91,8 +96,7 @@ tmp<surfaceScalarField> upwind_step(Flow& flow, const surfaceScalarField& phi, c
 /// One alpha step of the length of time's deltaT; returns the flux of liquid, m3/s.
 template <class Weight>
 tmp<surfaceScalarField> advance_alpha(Flow& flow, const surfaceScalarField& phi,
-                                      const AlphaControls& controls, const surfaceScalarField& speed,
-                                      const Weight& eps) {
+                                      const AlphaControls& controls, const Weight& eps) {
   volScalarField& alpha = flow.alpha;
   volScalarField& alpha2 = flow.mixture.alpha2();
   tmp<surfaceScalarField> flux;
@@ -101,7 +105,7 @@ tmp<surfaceScalarField> advance_alpha(Flow& flow, const surfaceScalarField& phi,
     alpha2 = 1.0 - alpha;
   }
   for (label corrector = 0; corrector < controls.correctors; ++corrector) {
-    tmp<surfaceScalarField> target = unlimited_flux(flow, phi, speed);
+    tmp<surfaceScalarField> target = unlimited_flux(flow, phi, controls);
     if (controls.semi_implicit) {
       surfaceScalarField correction(target() - flux());
       const bool damped = corrector > 0;  // half of each further correction, for convergence
@@ -124,15 +128,14 @@ tmp<surfaceScalarField> advance_alpha(Flow& flow, const surfaceScalarField& phi,
 template <class Part>
 tmp<surfaceScalarField> advance_alpha_in_parts(Flow& flow, const surfaceScalarField& phi, const Part& part) {
   const AlphaControls controls(flow.mesh.solverDict(flow.alpha.name()));
-  const tmp<surfaceScalarField> speed = compression_speed(flow, phi);
   const label n = controls.sub_cycles;
-  if (n <= 1) return advance_alpha(flow, phi, controls, speed(), part(0, 1));
+  if (n <= 1) return advance_alpha(flow, phi, controls, part(0, 1));
 
   tmp<surfaceScalarField> mean;
   label done = 0;
   for (Foam::subCycle<volScalarField> cycle(flow.alpha, n); !(++cycle).end(); ++done) {
     tmp<surfaceScalarField> flux =
-        advance_alpha(flow, phi, controls, speed(), part(double(done) / n, double(done + 1) / n));
+        advance_alpha(flow, phi, controls, part(double(done) / n, double(done + 1) / n));
     if (mean.valid())
       mean.ref() += flux;
     else

@@ -24,6 +24,7 @@ tmp<scalarField> rate_to_serve(const Flow& flow) {
 }
 
 void update_face_velocity(Flow& flow) {
+  if (flow.velocity_flux) *flow.velocity_flux = flow.phi / flow.pressure_system.crowding->eps_f;
   if (!flow.face_velocity) return;
   const surfaceVectorField normal(flow.mesh.Sf() / flow.mesh.magSf());
   surfaceVectorField& face_velocity = *flow.face_velocity;

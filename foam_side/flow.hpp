@@ -101,6 +101,7 @@ struct Flow {
   scalar p_reference = 0;                             // Pa
   std::unique_ptr<surfaceVectorField> face_velocity;  // only on a changing mesh, m/s
   std::unique_ptr<Refinement> refinement;             // only with fluid.refinement
+  std::unique_ptr<surfaceScalarField> velocity_flux;  // only with porosity on a fixed mesh: u.S, m3/s
   tmp<surfaceScalarField> face_force;                 // (sigma kappa grad alpha - g.x grad rho).S, N/m
   PressureSystem pressure_system;
   std::unique_ptr<Reconstruction> reconstruct;

@@ -2,6 +2,7 @@
 // Reads an interFoam case: 0/ (U, p_rgh, alpha.*), constant/ (transportProperties, turbulenceProperties,
 // g, hRef), system/ (controlDict, fvSchemes, fvSolution with PIMPLE and alpha.*).
 
+#include "cyclicAMIPolyPatch.H"
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -39,6 +40,32 @@ void refuse_file(const Foam::fvMesh& mesh, const Foam::word& folder, const Foam:
                          << ", remove the file" << Foam::exit(Foam::FatalError);
 }
 
+void require_known_advection(const Flow& flow, const Foam::dictionary& controls) {
+  const Foam::word scheme = controls.lookupOrDefault<Foam::word>("advectionScheme", "MULES");
+  if (scheme == "MULES") return;
+  if (scheme != "isoAdvection")
+    FatalIOErrorInFunction(controls) << "advectionScheme is " << scheme << ", known: MULES, isoAdvection"
+                                     << Foam::exit(Foam::FatalIOError);
+  if (controls.lookupOrDefault("MULESCorr", false))
+    FatalIOErrorInFunction(controls) << "advectionScheme isoAdvection is explicit: MULESCorr only no"
+                                     << Foam::exit(Foam::FatalIOError);
+  for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())
+    if (Foam::isA<Foam::cyclicAMIPolyPatch>(patch))
+      FatalIOErrorInFunction(controls) << "advectionScheme isoAdvection: not with patch " << patch.name()
+                                       << " of type " << patch.type() << Foam::exit(Foam::FatalIOError);
+}
+
+/// Relaxed, the last outer corrector would leave momentum to the next step that nobody counts.
+void require_unrelaxed_end(const Foam::fvMesh& mesh) {
+  const auto refuse = [&mesh](const char* name) {
+    FatalIOErrorInFunction(mesh.solutionDict())
+        << "relaxationFactors: the last outer corrector is not relaxed, " << name << " has to be 1"
+        << Foam::exit(Foam::FatalIOError);
+  };
+  if (mesh.relaxEquation("UFinal") && mesh.equationRelaxationFactor("UFinal") != 1) refuse("UFinal");
+  if (mesh.relaxField("p_rghFinal") && mesh.fieldRelaxationFactor("p_rghFinal") != 1) refuse("p_rghFinal");
+}
+
 void refuse_what_is_not_done(const Flow& flow) {
   require_euler(flow.mesh, "ddt(rho,U)");
   require_euler(flow.mesh, "ddt(alpha)");
@@ -52,6 +79,8 @@ void refuse_what_is_not_done(const Flow& flow) {
       FatalIOErrorInFunction(controls) << key << ": only 0" << Foam::exit(Foam::FatalIOError);
   if (controls.lookupOrDefault("alphaApplyPrevCorr", false))
     FatalIOErrorInFunction(controls) << "alphaApplyPrevCorr: only no" << Foam::exit(Foam::FatalIOError);
+  require_known_advection(flow, controls);
+  require_unrelaxed_end(flow.mesh);
 }
 
 }  // namespace
@@ -114,6 +143,8 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
   flow->turbulence->validate();
   if (flow->mesh.dynamic())
     flow->face_velocity = std::make_unique<surfaceVectorField>("Uf", fvc::interpolate(flow->U));
+  else if (flow->porosity)
+    flow->velocity_flux = std::make_unique<surfaceScalarField>("velocityFlux", fvc::flux(flow->U));
   if (refinement) flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
   return flow;
 }

@@ -7,7 +7,9 @@
 //
 // The flux of a step is used by the alpha equation of the next one. When the rate changes, the flux of
 // the last step no longer fits: a potential correction, phi - M grad(psi).S with
-// div(M grad psi) = div(phi) + rate, is the impulsive pressure of that change.
+// div(M grad psi) = div(phi) + rate, anticipates what the pressure of the coming step will do. It serves
+// the alpha equation alone: momentum starts from the flux before it (velocity_flux), and the impulse comes
+// from the pressure, where particles and walls feel it too.
 
 #include "foam_side/flow.hpp"
 

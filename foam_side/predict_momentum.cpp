@@ -52,8 +52,8 @@ tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& resp
   tmp<surfaceScalarField> flux0;  // of the velocity between the particles
   if (flow.face_velocity)
     flux0 = flow.mesh.Sf() & flow.face_velocity->oldTime();
-  else if (flow.porosity)
-    flux0 = flow.phi.oldTime() / face_void_fraction(flow.porosity->eps.oldTime());
+  else if (flow.velocity_flux)
+    flux0 = flow.velocity_flux->oldTime();
   else
     flux0 = flow.phi.oldTime();
   const surfaceScalarField unknown(flux0() - fvc::dotInterpolate(flow.mesh.Sf(), U0));
@@ -62,12 +62,30 @@ tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& resp
          scheme.ref().fvcDdtPhiCoeff(U0, flux0(), unknown) * unknown;
 }
 
+/// Relaxation (diagonal A from A_0) ties the cell velocity to its last iterate, and the face's with it:
+/// (1 - A_0/A)_f (u_f - mean(u)).S of the last iterate, m3/s. Without this term the fixed point of the
+/// outer correctors would depend on the relaxation factor (Majumdar, Numer. Heat Transfer 13 (1988) 125).
+tmp<surfaceScalarField> relaxation_memory(const Flow& flow, const volScalarField& unrelaxed,
+                                          const volScalarField& A) {
+  tmp<surfaceScalarField> flux =
+      flow.porosity ? flow.phi / face_void_fraction(flow.porosity->eps) : 1.0 * flow.phi;
+  return fvc::interpolate(1.0 - unrelaxed / A) * (flux - fvc::flux(flow.U));
+}
+
+/// Relaxes the momentum matrix if the case asks for it; returns what that adds to the flux, if anything.
+tmp<surfaceScalarField> relax_momentum(Flow& flow, Foam::fvVectorMatrix& momentum) {
+  if (!flow.mesh.relaxEquation(flow.U.select(flow.pimple.finalIter()))) return {};
+  const volScalarField unrelaxed(momentum.A());
+  momentum.relax();
+  return relaxation_memory(flow, unrelaxed, momentum.A());
+}
+
 }  // namespace
 
 void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
   system.momentum.reset(inertia_and_stress(flow).ptr());
-  system.momentum->relax();
+  const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   if (flow.pimple.momentumPredictor()) solve_momentum(flow, *system.momentum);
 
   const volScalarField A(system.momentum->A());
@@ -76,6 +94,7 @@ void predict_momentum(Flow& flow) {
   if (flow.porosity) response = flow.porosity->eps * *system.inverse_diagonal;
   system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
   system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));
+  if (lag.valid()) *system.memory += lag;
   if (flow.source) {
     system.crowding = std::make_unique<Crowding>(flow, A);
     const Crowding& crowding = *system.crowding;

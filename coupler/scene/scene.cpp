@@ -21,7 +21,7 @@ class Plan {
   bool surface_tension();
   PhaseInterchange interchange(PhaseInterchange chosen);
   bool porosity(PhaseInterchange interchange);
-  bool turbulence();
+  bool turbulence(bool porosity);
   void forces(const ForceParameters& forces);
   void capillary_force(bool named, bool surface_tension);
   void empty_bulk_cells();
@@ -158,9 +158,12 @@ void Plan::empty_bulk_cells() {
                          : "There are no particles: nothing is averaged or exchanged.");
 }
 
-bool Plan::turbulence() {
-  return facts_.turbulent ? decide("turbulence model", true, "The fluid case names one.")
-                          : decide("turbulence model", false, "The fluid case is laminar.");
+bool Plan::turbulence(bool porosity) {
+  const std::string name = "turbulence model";
+  if (!facts_.turbulent) return decide(name, false, "The fluid case is laminar.");
+  return decide(name, true,
+                porosity ? "The fluid case names one; beware: it knows neither particles nor porosity."
+                         : "The fluid case names one.");
 }
 
 }  // namespace
@@ -177,7 +180,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   scene.interchange = plan.interchange(interchange);
   scene.porosity = plan.porosity(scene.interchange);
   plan.empty_bulk_cells();
-  scene.turbulence = plan.turbulence();
+  scene.turbulence = plan.turbulence(scene.porosity);
   if (!plan.impossible.empty()) throw InputError(plan.impossible);
   scene.decisions = plan.decisions;
   return scene;

@@ -238,6 +238,10 @@ TEST(ScenePlan, FollowsTheFluidCaseInTurbulence) {
   facts.turbulent = true;
   EXPECT_TRUE(plan_scene({}, facts).turbulence);
   EXPECT_TRUE(decision(plan_scene({}, facts), "turbulence model").on);
+  EXPECT_EQ(decision(plan_scene({}, facts), "turbulence model").reason, "The fluid case names one.");
+  facts.particles = true;
+  EXPECT_EQ(decision(plan_scene({}, facts), "turbulence model").reason,
+            "The fluid case names one; beware: it knows neither particles nor porosity.");
 }
 
 TEST(SceneTable, IsALinePerDecision) {

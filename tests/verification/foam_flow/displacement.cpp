@@ -95,6 +95,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Variant{"sub_cycles", {{"alpha_sub_cycles", "3"}}, 2, 1e-10},
                     Variant{"semi_implicit", {{"mules_corr", "yes"}, {"alpha_sub_cycles", "2"}}, 2, 1e-10},
                     Variant{"outer_correctors", {{"outer_correctors", "2"}}, 2, 1e-10},
+                    Variant{"relaxed",
+                            {{"outer_correctors", "3"},
+                             {"predictor", "yes"},
+                             {"relaxation", "{ fields { p_rgh 0.7; } equations { U 0.8; } }"}},
+                            1,
+                            1e-10},
+                    Variant{
+                        "geometric", {{"alpha_scheme", "isoAdvection"}, {"alpha_sub_cycles", "2"}}, 2, 1e-10},
                     Variant{"loose_pressure", {{"p_tolerance", "1e-4"}}, 2, 1e-2}),
     [](const testing::TestParamInfo<Variant>& info) { return info.param.name; });
 

@@ -40,7 +40,11 @@ std::unique_ptr<Flow> FoamCase::open(const Scene& scene, const RefinementParamet
   Foam::argList::noBanner();
   // Never destroyed: its destructor would end the process with exit code 0.
   const auto* const args = new Foam::argList(argc, argv);
-  return open_flow(*args, scene, refinement);
+  try {
+    return open_flow(*args, scene, refinement);
+  } catch (const Foam::error& error) {
+    throw std::runtime_error(error.message());
+  }
 }
 
 Scene scene(bool particles, bool porosity, bool surface_tension) {

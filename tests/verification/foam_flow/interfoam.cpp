@@ -72,6 +72,9 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"surface_tension", with({{"sigma", "0.07"}, {"predictor", "yes"}}), true},
         Variant{"semi_implicit_mules", with({{"mules_corr", "yes"}, {"alpha_correctors", "2"}}), false},
         Variant{"outer_correctors", with({{"outer_correctors", "2"}, {"alpha_sub_cycles", "2"}}), false},
+        Variant{"k_epsilon", with({{"turbulence", "RAS"}, {"ras_model", "kEpsilon"}}), false},
+        Variant{"k_omega_sst",
+                with({{"turbulence", "RAS"}, {"ras_model", "kOmegaSST"}, {"predictor", "yes"}}), false},
         Variant{"as_shipped_tolerances", {{"sigma", "0.07"}}, true}),
     [](const testing::TestParamInfo<Variant>& info) { return info.param.name; });
 
