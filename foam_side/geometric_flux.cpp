@@ -97,6 +97,7 @@ tmp<surfaceScalarField> geometric_flux(const Flow& flow, const surfaceScalarFiel
   forAll(liquid, face) if (share[face] >= 0) liquid[face] = share[face] * phi[face];
   forAll(liquid.boundaryField(), patch) {
     auto& at_patch = liquid.boundaryFieldRef()[patch];
+    if (!at_patch.coupled()) continue;  // an outlet takes the cell's alpha: MULES limits no outlet
     const label start = flow.mesh.boundaryMesh()[patch].start();
     forAll(at_patch, i) {
       const scalar value = share[start + i];

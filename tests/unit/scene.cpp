@@ -234,6 +234,7 @@ TEST(ScenePlan, NeverExchangesEmptyBulkCells) {
 
 TEST(ScenePlan, FollowsTheFluidCaseInTurbulence) {
   SceneFacts facts = three_phases();
+  facts.particles = false;
   EXPECT_FALSE(decision(plan_scene({}, facts), "turbulence model").on);
   facts.turbulent = true;
   EXPECT_TRUE(plan_scene({}, facts).turbulence);

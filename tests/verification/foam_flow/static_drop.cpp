@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A drop at rest without gravity: every velocity is spurious. La = sigma rho D/mu^2 = 12000, densities
 // 1000 : 1, 16 cells across the drop. The measure is Ca = mu max|u|/sigma, u between the particles, on the
-// same mesh and time step as the distribution's interFoam. With held beads in it, beads in one half of the
-// box (the interface goes in and out of a void fraction that jumps), and the same without any drag to damp.
+// same mesh and time step as the distribution's interFoam and interIsoFoam. With held beads in it, beads in
+// one half of the box (the interface goes in and out of a void fraction that jumps), and the same without any
+// drag to damp.
 
 #include <gtest/gtest.h>
 
@@ -111,14 +112,14 @@ History ours(const Variant& variant, double end_time) {
   return history;
 }
 
-History theirs(double end_time) {
-  const FoamCase folder("static_drop_interfoam", drop_case({}, end_time));
+History theirs(const std::string& program, double end_time) {
+  const FoamCase folder("static_drop_" + program, drop_case({}, end_time));
   {
     const auto flow = folder.open(scene(false, false, true));
     set_alpha(*flow, drop);
     flow->alpha.write();
   }
-  folder.run("interFoam");
+  folder.run(program);
   const Foam::fileName name(folder.folder());
   Foam::Time time(Foam::Time::controlDictName, name.path(), Foam::fileName(name.name()));
   History history;
@@ -138,34 +139,34 @@ void static_drop(double end_time, const std::string& command) {
   Record record(
       "static_drop", "Spurious currents at a drop at rest",
       "Plane drop, La = 12000, densities 1000 : 1, 16 cells across, no gravity. Largest velocity as "
-      "capillary number over time, against the distribution's interFoam on the same mesh with the "
-      "same time step; without beads, with held beads inside, and with a void fraction that jumps "
+      "capillary number over time: MULES against the distribution's interFoam, isoAdvector against its "
+      "interIsoFoam, on the same mesh with the same time step; without beads, with held beads inside, and "
+      "with a void fraction that jumps "
       "from 1 to 0.6 across the interface, with drag and without any.",
       command);
-  const History reference = theirs(end_time);
-  record.note("interFoam: largest capillary number", reference.worst());
-  record.note("interFoam: capillary number at the end", reference.last());
   const auto draw = [&](const std::string& series, const History& history, const std::string& style) {
     record.curve("capillary number of the spurious currents", "t, s", "Ca = mu max|u| / sigma, -", series,
                  history.time, history.capillary, "y", style);
   };
-  draw("interFoam", reference, "k--");
-  const Settings iso{{"alpha_scheme", "isoAdvection"}};
-  for (const Variant& variant :
-       {Variant{"MULES, no beads", {}, nullptr, 0}, Variant{"MULES, beads inside", {}, core, 1e5},
-        Variant{"MULES, beads across", {}, half, 1e5}, Variant{"MULES, eps across, no drag", {}, half, 0},
-        Variant{"MULES, smooth eps across, no drag", {}, smooth_half, 0},
-        Variant{"isoAdvection, no beads", iso, nullptr, 0},
-        Variant{"isoAdvection, beads inside", iso, core, 1e5},
-        Variant{"isoAdvection, beads across", iso, half, 1e5},
-        Variant{"isoAdvection, eps across, no drag", iso, half, 0}}) {
-    const History history = ours(variant, end_time);
-    record.at_most(variant.name + ": largest capillary number over interFoam's",
-                   history.worst() / reference.worst(), 1.05);
-    record.note(variant.name + ": capillary number at the end over interFoam's",
-                history.last() / reference.last());
-    record.at_most(variant.name + ": liquid volume", history.water_error, 1e-10);
-    draw(variant.name, history, "-");
+  const Settings mules{{"alpha_scheme", "MULES"}}, iso{{"alpha_scheme", "isoAdvection"}};
+  for (const auto& [program, scheme] : {std::pair{"interFoam", mules}, std::pair{"interIsoFoam", iso}}) {
+    const History reference = theirs(program, end_time);
+    record.note(std::string(program) + ": largest capillary number", reference.worst());
+    record.note(std::string(program) + ": capillary number at the end", reference.last());
+    draw(program, reference, program == std::string("interFoam") ? "k--" : "r--");
+    for (const Variant& variant :
+         {Variant{"no beads", scheme, nullptr, 0}, Variant{"beads inside", scheme, core, 1e5},
+          Variant{"beads across", scheme, half, 1e5}, Variant{"eps across, no drag", scheme, half, 0},
+          Variant{"smooth eps across, no drag", scheme, smooth_half, 0}}) {
+      const std::string name = scheme.at("alpha_scheme") + ", " + variant.name;
+      const History history = ours(variant, end_time);
+      record.at_most(name + ": largest capillary number over " + program + "'s",
+                     history.worst() / reference.worst(), 1.05);
+      record.note(name + ": capillary number at the end over " + program + "'s",
+                  history.last() / reference.last());
+      record.at_most(name + ": liquid volume", history.water_error, 1e-10);
+      draw(name, history, "-");
+    }
   }
 }
 
