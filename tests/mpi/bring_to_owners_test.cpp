@@ -48,3 +48,7 @@ TEST(BringToOwners, BringsEveryRecordOnceInTheOrderOfRanks) {
 
 }  // namespace
 }  // namespace demvof
+
+int main(int argc, char** argv) {
+  return demvof::test::run_both_sides(argc, argv);
+}
