@@ -201,6 +201,7 @@ void replace_particles(
   update_boundaries(flow, old_density);
   flow.phi += cell_flux(flow) - old_flux;
   if (flow.face_velocity) *flow.face_velocity += fvc::interpolate(flow.U - old_velocity);
+  if (flow.velocity_flux) *flow.velocity_flux += fvc::dotInterpolate(flow.mesh.Sf(), flow.U - old_velocity);
   if (!flow.porosity)
     fit_flux(flow, projection_mobility(flow), nullptr);  // else with the window's void fraction
 
