@@ -178,6 +178,10 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
     results.steps.fluid = flow.clock.steps;
     results.cells.fine_max = std::max(results.cells.fine_max, cells);
     results.cells.fine_min = results.cells.fine_min ? std::min(results.cells.fine_min, cells) : cells;
+    if (flow.refinement) {
+      results.cells.mesh_changes = flow.refinement->changes;
+      results.cells.imbalance = flow.refinement->worst_imbalance;
+    }
     results.cells.bulk_active_max = std::max(results.cells.bulk_active_max, window.active_cells);
     results.peak_memory_bytes.fluid = static_cast<std::int64_t>(memory);
     results.wall_seconds.fluid = window.seconds.fluid;

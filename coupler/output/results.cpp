@@ -67,7 +67,9 @@ std::string results_json(const RunResults& r) {
   json["cells"] = {{"fine_min", r.cells.fine_min},
                    {"fine_max", r.cells.fine_max},
                    {"bulk", r.cells.bulk},
-                   {"bulk_active_max", r.cells.bulk_active_max}};
+                   {"bulk_active_max", r.cells.bulk_active_max},
+                   {"mesh_changes", r.cells.mesh_changes},
+                   {"imbalance", r.cells.imbalance}};
   json["particles"] = {{"initial", r.particles.initial},
                        {"inserted", r.particles.inserted},
                        {"left", r.particles.left},

@@ -49,6 +49,8 @@ struct RunResults {
   } steps;
   struct {
     long fine_min = 0, fine_max = 0, bulk = 0, bulk_active_max = 0;
+    long mesh_changes = 0;  // by fluid.refinement
+    double imbalance = 1;   // with it: most cells on a rank over the mean, worst of the run
   } cells;
   struct {
     long initial = 0, inserted = 0, left = 0, lost = 0, final = 0;
