@@ -26,7 +26,7 @@ def results(**changes):
 
 
 def history(**columns):
-    """The text of history.csv, times 0, 0.1, 0.2, ..."""
+    """The text of history.csv, times 0, 0.1, 0.2, ... unless given."""
     length = max(len(column) for column in columns.values())
     columns = {"time": [0.1 * n for n in range(length)], **columns}
     rows = [",".join(map(str, row)) for row in zip(*columns.values())]
@@ -94,6 +94,56 @@ class CaseChecks(unittest.TestCase):
         self.expect("hydrostatic_bed", results(), history(max_speed=(0, 9e-7)), "")
         self.expect("hydrostatic_bed", results(), history(max_speed=(0, 2e-6, 0)), "speed")
         self.expect("hydrostatic_bed", results(steps__fluid=99), history(max_speed=(0, 0)), "steps")
+
+    def test_single_particle_impact(self):
+        mass, rise = 2000 * math.pi / 6 * 4e-3**3, math.pi / 6 * 4e-3**3 / 0.05**2
+
+        def run(time_scale=1.0, speed_scale=1.0, level_scale=1.0):
+            """A free fall, slowed by about as much as air does, which ends under water."""
+            times = [0.001 * n * 1.004 * time_scale for n in range(140)]
+            heights = [0.14 - 0.5 * 9.81 * (0.001 * n) ** 2 for n in range(140)]
+            speeds = [9.81 * 0.001 * n * 0.994 * speed_scale for n in range(140)]
+            return history(time=times, particle_potential_energy=[mass * 9.81 * z for z in heights],
+                           particle_kinetic_energy=[0.5 * mass * v * v for v in speeds],
+                           mean_level=[0.051] * 139 + [0.051 + level_scale * rise])
+
+        case, falling = "single_particle_impact", {"particles": {"script": "particles/in.falling"}}
+        good = results(configuration=falling)
+        self.expect(case, good, run(), "")
+        self.expect(case, good, run(speed_scale=0.98), "speed")
+        self.expect(case, good, run(level_scale=0.98), "level")
+        self.expect(case, results(configuration=falling, conservation__exchange=1e-11), run(), "exchange")
+        self.expect(case, results(configuration=falling, conservation__momentum=1e-11), run(), "momentum")
+        self.expect(case, results(configuration=falling, conservation__liquid_volume=1e-8), run(), "liquid volume")
+        code, printed = self.verdict(case, good, run(time_scale=1.01))
+        self.assertEqual((code, printed.count("NOT")), (1, 2), printed)  # late at both heights
+
+        injected = {"particles": {"script": "particles/in.injected"}, "coupling": {"phase_interchange": "replacement"}}
+        books = {"became_liquid": 1, "volume_error": 1e-15}
+        self.expect(case, results(configuration=injected, replacement=books), run(), "")
+        self.expect(case, results(configuration=injected, replacement={**books, "became_liquid": 0}), run(), "became")
+        self.expect(case, results(configuration=injected, replacement={**books, "volume_error": 1e-9}), run(), "change")
+
+    def test_particle_injection(self):
+        def table(level, end=1.6):
+            return history(time=[0, end], mean_level=[0.3, level])
+
+        case = "particle_injection"
+        injection = {"configuration": {"particles": {"script": "particles/in.injection"}}}
+        facts = results(particles={"lost": 0, "final": 1500}, **injection)
+        self.expect(case, facts, table(0.30982), "")
+        self.expect(case, facts, table(0.30995), "level")
+        self.expect(case, facts, table(0.30970), "level")
+        self.expect(case, results(particles={"lost": 0, "final": 1400}, **injection), table(0.30916), "beads in the end")
+        self.expect(case, results(particles={"lost": 0, "final": 300}, **injection), table(0.301963, end=0.2), "")
+        self.expect(case, results(particles={"lost": 1, "final": 1500}, **injection), table(0.30982), "lost")
+        self.expect(case, results(particles={"lost": 0, "final": 1500}, conservation__exchange=1e-11, **injection),
+                    table(0.30982), "exchange")
+        self.expect(case, results(particles={"lost": 0, "final": 1500}, conservation__liquid_volume=1e-4, **injection),
+                    table(0.30982), "liquid volume")
+        column = {"configuration": {"particles": {"script": "particles/in.column"}}}
+        self.expect(case, results(particles={"lost": 0, "final": 3000}, **column), table(0.31005), "")
+        self.expect(case, results(particles={"lost": 0, "final": 3000}, **column), table(0.30982), "level")
 
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
