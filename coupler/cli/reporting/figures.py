@@ -9,6 +9,7 @@ import numpy  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap, Normalize  # noqa: E402
+from matplotlib.text import Text  # noqa: E402, F401 (page.image asks for the size of the smallest)
 
 from reporting import fields  # noqa: E402
 from reporting.run import read_reference  # noqa: E402
@@ -20,7 +21,7 @@ pyplot.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.
 COLOURS = ["#1f6fb2", "#d9641e", "#3a9a5b", "#8a55b4", "#5b6670", "#c23b58"]
 WATER = LinearSegmentedColormap.from_list("water", ["#f7fafc", "#a9cdea"])
 SPEED = pyplot.get_cmap("inferno")
-SIZE = (4.8, 3.3)  # inches; shown 380 px wide or wider, where 10 points are still readable
+SIZE = (4.2, 3.0)  # inches; shown 360 px wide or wider: 9 points are 10.7 px there
 
 # Quantities that belong in one figure: (title, names, kind of axis). Of a constant only its change is worth a look.
 LINEAR, LOGARITHMIC, CHANGE = "linear", "logarithmic", "change"

@@ -13,7 +13,7 @@ STYLE = """
 body { margin: 0 auto; max-width: 1320px; padding: 1rem; color: #1c2329; background: #fff;
        font: 16px/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.6rem; line-height: 1.2; } h2 { font-size: 1.2rem; margin: 2rem 0 .6rem; }
-h3 { font-size: 1rem; margin: 1.2rem 0 .4rem; }
+h2.run { font-size: 1.5rem; margin-top: 3rem; border-top: 2px solid var(--line); padding-top: 1rem; }
 .status { display: inline-block; padding: .1rem .6rem; border-radius: 1rem; font-size: .95rem; font-weight: 600; }
 .good { background: #d9f0e0; color: #14532d; } .bad { background: #fbe0dd; color: #7f1d1d; }
 .quiet { color: var(--quiet); }
@@ -26,7 +26,7 @@ figure { margin: 0; } figcaption { color: var(--quiet); font-size: .9rem; }
 img { width: 100%; height: auto; display: block; } .plot img { max-width: 640px; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid var(--line); }
-th { font-weight: 600; }
+th { font-weight: 600; } td { overflow-wrap: anywhere; min-width: 2.2rem; } td .number { overflow-wrap: normal; }
 pre { overflow-x: auto; background: #f4f6f8; padding: .7rem; font-size: .85rem; white-space: pre-wrap; }
 .bar { display: inline-block; height: .7rem; background: #1f6fb2; vertical-align: middle; min-width: 1px; }
 """
@@ -41,7 +41,7 @@ def html(runs):
                   section("History", guarded(histories, runs))]
     for run in runs:
         if len(runs) > 1:
-            parts.append(f"<h1>{escape(run.name)}</h1>")
+            parts.append(f"<h2 class=\"run\">{escape(run.name)}</h2>")
         parts += one_run(run, alone=len(runs) == 1)
     return ("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
@@ -51,7 +51,7 @@ def html(runs):
 
 def one_run(run, alone):
     kind = "good" if run.completed else "bad"
-    parts = [f"<p><span class=\"status {kind}\">{escape(run.status)}</span></p>"]
+    parts = [f"<p><span class=\"status {kind}\">{escape(run.status)}</span> {escape(tables.headline(run))}</p>"]
     if not run.completed:
         parts.append(guarded(stopped, run))
     parts.append(section("Surface and particles", guarded(pictures, run)))
@@ -86,12 +86,14 @@ def case_name(run):
 
 
 def image(figure, alternative, dpi=160):
-    """The figure as an inline picture; the figure is closed."""
+    """The figure as an inline picture; the figure is closed. data-smallest-text: its height over the picture's width."""
+    sizes = [text.get_fontsize() for text in figure.findobj(figures.Text) if text.get_visible() and text.get_text()]
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=dpi)
     figures.pyplot.close(figure)
     code = base64.b64encode(data.getvalue()).decode()
-    return f"<img alt=\"{escape(alternative)}\" src=\"data:image/png;base64,{code}\">"
+    smallest = f" data-smallest-text=\"{min(sizes) / 72 / figure.get_figwidth():.4f}\"" if sizes else ""
+    return f"<img alt=\"{escape(alternative)}\"{smallest} src=\"data:image/png;base64,{code}\">"
 
 
 def table(rows, header=()):

@@ -56,6 +56,18 @@ def summary(run):
     return rows
 
 
+def headline(run):
+    """A run in one sentence: how far, how long, how well its books close."""
+    said = f"{amount(run.last_time, 's')} simulated"
+    if run.number("wall_seconds.total"):
+        said += f" in {duration(run.number('wall_seconds.total'))}"
+    worst = [(name, run.number(f"conservation.{name}")) for name in ("liquid_volume", "solid_volume", "exchange", "momentum")]
+    kept = [f"{name.replace('_', ' ')} {error:.0e}" for name, error in worst if error is not None]
+    warnings = len(run.results.get("warnings") or [])
+    said += "; conserved to " + ", ".join(kept) if kept else ""
+    return said + (f"; {warnings} warning{'s' if warnings > 1 else ''}" if warnings else "") + "."
+
+
 def conservation(run):
     """[(what, worst relative error)]."""
     words = [("exchange", "impulse given by particles = received by fluid + pending"), ("momentum", "momentum ledger"),

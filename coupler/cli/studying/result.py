@@ -40,9 +40,10 @@ def error_against_time(rows, quantity):
         if points:
             axes.plot([r["wall_seconds"] for r in points], [r["errors"][quantity] for r in points], "o", color=colour,
                       label=label)
-    for row in known:
-        axes.annotate(row["name"], (row["wall_seconds"], row["errors"][quantity]), fontsize=7, xytext=(4, 4),
-                      textcoords="offset points")
+    for number, row in enumerate(rows, 1):  # names would lie over each other: the table says who is who
+        if row in known:
+            axes.annotate(str(number), (row["wall_seconds"], row["errors"][quantity]), fontsize=9, xytext=(4, 3),
+                          textcoords="offset points")
     front = sorted((row["wall_seconds"], row["errors"][quantity]) for row in known
                    if row["name"] in pareto(rows, quantity))
     axes.plot([t for t, _ in front], [e for _, e in front], "-", color="#8a949e", linewidth=1, zorder=0,
@@ -71,12 +72,12 @@ def cost(rows):
 
 def html(rows, plan, statements):
     """The page, self-contained."""
-    header = ["run", "status", "wall time", "fluid", "particles", "exchange", "fine cells", "memory", *plan.quantities]
+    header = ["", "run", "status", "wall time", "fluid", "particles", "exchange", "fine cells", "memory", *plan.quantities]
     body = []
-    for row in rows:
+    for number, row in enumerate(rows, 1):
         parts = [tables.duration(row["parts_seconds"].get(p)) for p in ("fluid", "particles", "exchange")]
         status = row["status"] if not row["failure"] else f"{row['status']}: {row['failure']}"
-        body.append([escape(row["name"]), escape(status), tables.duration(row["wall_seconds"]), *parts,
+        body.append([str(number), escape(row["name"]), escape(status), tables.duration(row["wall_seconds"]), *parts,
                      tables.amount(row["cells"].get("fine_max")), tables.size(row["peak_memory_bytes"]),
                      *(percent(row["errors"].get(q)) for q in plan.quantities)])
     plots = ""
@@ -93,7 +94,8 @@ def html(rows, plan, statements):
              f"<p>Errors against {escape(reference_text(plan.reference))}; root mean square over the run, relative to "
              "that of the reference. Wall times: median of " f"{plan.repeat} run(s), one after the other.</p>",
              section("What it says", said), section("Runs", table(body, header)),
-             section("Error against run time", f"<div class=\"columns\">{plots}</div>"), section("Cost", costs)]
+             section("Error against run time", "<p class=\"quiet\">The numbers are those of the table's rows.</p>"
+                     f"<div class=\"columns\">{plots}</div>"), section("Cost", costs)]
     return ("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
             f"<title>{escape(title)}</title><style>{STYLE}</style></head><body>" + "\n".join(parts)
