@@ -161,15 +161,6 @@ void update_mixture(Flow& flow) {
   if (flow.ghost) add_ghost_density(flow);
 }
 
-void update_face_force(Flow& flow) {
-  flow.face_force.clear();
-  flow.face_force = -flow.ghf * fvc::snGrad(flow.rho) * flow.mesh.magSf();
-  if (flow.scene.surface_tension) {
-    flow.mixture.interfaceProperties::correct();
-    flow.face_force.ref() += flow.mixture.surfaceTensionForce() * flow.mesh.magSf();
-  }
-}
-
 /// The alpha step between particles; returns the flux of liquid. phi: flux of the fluid.
 tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScalarField& phi,
                                                   const volScalarField& eps) {
@@ -183,6 +174,15 @@ tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScala
 }
 
 }  // namespace
+
+void update_face_force(Flow& flow) {
+  flow.face_force.clear();
+  flow.face_force = -flow.ghf * fvc::snGrad(flow.rho) * flow.mesh.magSf();
+  if (flow.scene.surface_tension) {
+    flow.mixture.interfaceProperties::correct();
+    flow.face_force.ref() += flow.mixture.surfaceTensionForce() * flow.mesh.magSf();
+  }
+}
 
 void advect_interface(Flow& flow) {
   if (flow.porosity) carry_void_fraction(flow);

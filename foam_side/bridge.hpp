@@ -36,17 +36,17 @@ class Bridge {
   /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
   /// particles leave no room for the fluid.
   scalarField void_fraction() { return void_fraction_of(solid_volume_, spread_); }
+  /// What became liquid, or took its place back, at the begin of the present window.
+  void note(const std::vector<Droplet>& droplets) { droplets_ = droplets; }
   /// What the last void fraction came to, over all ranks.
   struct Spread {
     double solid_volume = 0;  // on the fine mesh, m3
     long negative_cells = 0;  // fine cells in which an interpolation went below zero: they got none
   };
   const Spread& spread() const { return spread_; }
-  /// The void fraction from what was taken the time before: at the begin of the present window.
-  scalarField void_fraction_before() const {
-    Spread then;
-    return void_fraction_of(solid_volume_before_, then);
-  }
+  /// The void fraction from what was taken the time before, less what has become liquid since: at the begin
+  /// of the present window.
+  scalarField void_fraction_before() const;
 
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk
   /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
@@ -107,6 +107,7 @@ class Bridge {
   CellValues<LeftOver> left_over_;         // owned cells; not handed over yet
   CellValues<double> solid_volume_;        // of these, m3
   CellValues<double> solid_volume_before_;
+  std::vector<Droplet> droplets_;
   std::vector<BulkParticles> touched_;    // per touched cell of the remap
   std::vector<Piece> pieces_;             // those in active bulk cells
   std::vector<double> coefficient_part_;  // per piece: its part of the fine cell's coefficient, -

@@ -89,4 +89,14 @@ scalarField Bridge::solid_fraction_of(const Vec3& position, double volume) const
   return result;
 }
 
+scalarField Bridge::void_fraction_before() const {
+  Spread then;
+  scalarField eps(void_fraction_of(solid_volume_before_, then));
+  for (const Droplet& droplet : droplets_) {
+    const double volume = 4.0 / 3.0 * Foam::constant::mathematical::pi * std::pow(droplet.radius, 3);
+    eps += droplet.sign * solid_fraction_of(droplet.position, volume);
+  }
+  return eps;
+}
+
 }  // namespace demvof

@@ -118,6 +118,10 @@ struct Flow {
 std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
                                 const RefinementParameters* refinement = nullptr);
 
+/// With fluid.refinement: fine cells around the initial surface, and there the fields that setFields made,
+/// set again, with the pressure that balances them. Before the void fraction; part of open_flow.
+void refine_start(Flow& flow);
+
 /// The void fraction at the start: a state, not a change. eps: one value per cell.
 void set_initial_porosity(Flow& flow, const scalarField& eps);
 
@@ -159,6 +163,9 @@ void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField*
 /// The same for any flux of volume.
 void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
               const scalarField* wanted_rate);
+
+/// face_force of the present alpha and rho.
+void update_face_force(Flow& flow);
 
 /// Void fraction at faces that keeps a uniform flux uniform where eps jumps: 1/e = mean(1/eps).
 tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps);

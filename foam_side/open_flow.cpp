@@ -136,6 +136,10 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
   Foam::FatalIOError.throwExceptions();
   auto flow = std::make_unique<Flow>(args, scene);
   refuse_what_is_not_done(*flow);
+  if (refinement) {
+    flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
+    refine_start(*flow);
+  }
   const surfaceScalarField anywhere_alike(Foam::IOobject("rAUf", flow->time.timeName(), flow->mesh),
                                           flow->mesh,
                                           dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
@@ -145,7 +149,6 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
     flow->face_velocity = std::make_unique<surfaceVectorField>("Uf", fvc::interpolate(flow->U));
   else if (flow->porosity)
     flow->velocity_flux = std::make_unique<surfaceScalarField>("velocityFlux", fvc::flux(flow->U));
-  if (refinement) flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
   return flow;
 }
 

@@ -5,8 +5,12 @@
 // only an interpolation (settle_flux).
 
 #include <algorithm>
+#include <limits>
 
+#include "findRefCell.H"
 #include "foam_side/flow.hpp"
+#include "foam_side/initial_fields.hpp"
+#include "syncTools.H"
 
 namespace demvof {
 namespace {
@@ -37,6 +41,60 @@ bool change_once(Flow& flow) {
   return true;
 }
 
+/// Looks at the mesh once, or, as long as that changes it, so often. True if it changed.
+bool change_mesh(Flow& flow, int looks) {
+  int look = 0;
+  while (look < looks && change_once(flow)) ++look;
+  return look > 0;
+}
+
+/// Where cells on both sides of a cut between ranks are put together, each side keeps the velocity of
+/// another one of the faces that became one. The mean of both, or the two ranks' fluxes would differ.
+void agree_on_both_sides(surfaceVectorField& face_velocity) {
+  const Foam::fvMesh& mesh = face_velocity.mesh();
+  Foam::vectorField across(mesh.nBoundaryFaces(), vector::zero);
+  const auto first = [&mesh](label patch) {
+    return mesh.boundaryMesh()[patch].start() - mesh.nInternalFaces();
+  };
+  auto& at_boundary = face_velocity.boundaryFieldRef();
+  forAll(at_boundary, patch) forAll(at_boundary[patch], face) across[first(patch) + face] =
+      at_boundary[patch][face];
+  Foam::syncTools::swapBoundaryFaceList(mesh, across);
+  forAll(at_boundary, patch) {
+    if (!at_boundary[patch].coupled()) continue;
+    Foam::fvsPatchVectorField& here = at_boundary[patch];
+    forAll(here, face) here[face] = 0.5 * (here[face] + across[first(patch) + face]);
+  }
+}
+
+/// What hangs on the mesh and is no mapped field; values across cuts between ranks.
+void renew_geometry(Flow& flow) {
+  for (volScalarField* field : {&flow.alpha, &flow.mixture.alpha2(), &flow.rho})
+    field->correctBoundaryConditions();
+  flow.U.correctBoundaryConditions();
+  flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
+  flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
+  Foam::setRefCell(flow.p, flow.p_rgh, flow.pimple.dict(), flow.p_reference_cell, flow.p_reference);
+  flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
+}
+
+/// Pressure of the fluid as it stands, div(M (face_force - grad p_rgh)) = 0, to the solver's tolerance: the
+/// first step's few corrections do not get there, because faces between fine and coarse cells are taken
+/// explicitly.
+void balance_pressure(Flow& flow) {
+  constexpr int most = 30;  // solutions
+  update_face_force(flow);
+  const tmp<surfaceScalarField> mobility = projection_mobility(flow);
+  const surfaceScalarField forced("phiHbyA", mobility() * flow.face_force());
+  for (int n = 0; n < most; ++n) {
+    Foam::constrainPressure(flow.p_rgh, flow.U, forced, mobility());
+    Foam::fvScalarMatrix equation(fvm::laplacian(mobility(), flow.p_rgh) == fvc::div(forced));
+    equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
+    if (equation.solve(flow.mesh.solver(flow.p_rgh.select(true))).nIterations() == 0) break;
+  }
+  flow.p == flow.p_rgh + flow.rho* flow.gh;
+}
+
 void record_balance(Flow& flow) {
   const double most = Foam::returnReduce(flow.mesh.nCells(), Foam::maxOp<label>());
   const double all = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
@@ -55,21 +113,42 @@ bool refine_mesh(Flow& flow) {
   }
   flow.face_force.clear();
   flow.pressure_system = PressureSystem();
-  bool changed = false;
-  // The start is as coarse as the case's mesh: every level at once, each from the one before.
-  const int looks = flow.refinement && flow.refinement->first ? flow.refinement->parameters.levels : 1;
-  for (int look = 0; look < looks; ++look) changed = change_once(flow) || changed;
+  // At the start the mesh may be as coarse as the case's: every level at once, each from the one before.
+  const bool changed =
+      change_mesh(flow, flow.refinement && flow.refinement->first ? flow.refinement->parameters.levels : 1);
   if (flow.refinement) flow.refinement->first = false;
   if (!changed) return false;
   flow.mesh.topoChanging(true);  // also when only an earlier look changed it
-  flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
-  flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
-  flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
+  renew_geometry(flow);
   if (flow.refinement) record_balance(flow);
   return true;
 }
 
+void refine_start(Flow& flow) {
+  const InitialFields fields(flow);
+  if (!fields.given()) return;
+  // OpenFOAM changes no mesh in step 0. No step of the run has this number, so each field's value of the
+  // step before is taken anew in step 1.
+  const double now = flow.time.value();
+  const label step = flow.time.timeIndex();
+  flow.time.setTime(now, std::numeric_limits<label>::max());
+  bool changed = false;
+  for (int level = 0; level < flow.refinement->parameters.levels && change_once(flow); ++level) {
+    fields.set(flow);
+    changed = true;
+  }
+  flow.time.setTime(now, step);
+  flow.mesh.topoChanging(false);
+  if (!changed) return;
+  renew_geometry(flow);
+  record_balance(flow);
+  balance_pressure(flow);
+  flow.phi = fvc::flux(flow.U);
+}
+
 void settle_flux(Flow& flow) {
+  agree_on_both_sides(*flow.face_velocity);
+  flow.face_velocity->oldTime() == *flow.face_velocity;
   flow.phi = flow.mesh.Sf() & *flow.face_velocity;
   auto& at_boundary = flow.phi.boundaryFieldRef();
   forAll(at_boundary, patch) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "coupler/config/read_case.hpp"
+#include "dynamicRefineFvMesh.H"
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -30,6 +31,11 @@ void mark_jumps(volScalarField& mark, const volScalarField& field, double limit)
     const Foam::labelUList& cells = at_patch.patch().faceCells();
     forAll(cells, i) if (std::abs(field[cells[i]] - there[i]) > limit) mark[cells[i]] = 1;
   }
+}
+
+/// How often a cell of the case's mesh has been halved to give each cell.
+const Foam::labelList& levels_of(const Foam::fvMesh& mesh) {
+  return dynamic_cast<const Foam::dynamicRefineFvMesh&>(mesh).meshCutter().cellLevel();
 }
 
 /// Marks the neighbours of marked cells.
@@ -82,9 +88,19 @@ Refinement::Refinement(const Foam::fvMesh& mesh, const RefinementParameters& giv
 
 bool Refinement::due(const Flow& flow) {
   crossed += flow.clock.interface_courant;
-  if (!first && crossed < 0.5 * parameters.buffer) return false;
+  if (!first && crossed < 0.5 * parameters.buffer && !particles_leave(flow)) return false;
   crossed = 0;
   return true;
+}
+
+bool Refinement::particles_leave(const Flow& flow) const {
+  if (!parameters.particles || !flow.porosity) return false;
+  if (Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>()) >= parameters.max_cells) return false;
+  const Foam::labelList& level = levels_of(flow.mesh);
+  bool coarse = false;
+  forAll(level, cell) coarse =
+      coarse || (level[cell] < parameters.levels && flow.porosity->eps[cell] < 1 - no_particle);
+  return Foam::returnReduce(coarse, Foam::orOp<bool>());
 }
 
 void Refinement::set_marks(const Flow& flow) {

@@ -114,6 +114,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, static_cast<double>(n) * window);
       replace_particles(flow, droplets, solid_fraction_of, replacement);
+      bridge.note(droplets);
       bridge.spread_sources();  // the flux is fitted to the new window with its drag
       if (flow.porosity) set_porosity_target(flow, bridge.void_fraction());
       if (flow.ghost) set_ghost_target(flow, bridge.void_fraction(), bridge.solid_flux_density());

@@ -94,9 +94,13 @@ void Checks::interchange() const {
     if (how == PhaseInterchange::replacement && averaging.kernel == Kernel::diffusion)
       add("coupling.phase_interchange",
           "replacement needs a kernel that knows what one particle displaces: any but diffusion");
-    if (c.fluid.refinement)
+    if (how == PhaseInterchange::volume_adding && c.fluid.refinement)
       add("coupling.phase_interchange",
-          name_of(how) + " needs a mesh that stays as it is: no fluid.refinement");
+          "volume_adding needs a mesh that stays as it is: no fluid.refinement");
+    if (how == PhaseInterchange::replacement && c.fluid.refinement && !c.fluid.refinement->particles)
+      add("coupling.phase_interchange",
+          "replacement needs fine cells wherever a particle may become liquid: fluid.refinement.particles: "
+          "true");
   }
   const std::string key = "coupling.interchange_speed";
   if (!sound({key, "coupling.window", "bulk_grid.lower", "bulk_grid.upper", "bulk_grid.cells"})) return;

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "foam_case.hpp"
 
 namespace demvof::test {
@@ -147,6 +149,95 @@ TEST(RefinedMeshFromCoarse, KeepsTheSurfaceFine) {
   EXPECT_LT(flow->alpha_excess, 1e-8);
   EXPECT_LT(coarse, 1.001);
   EXPECT_LT(fastest, 6);
+}
+
+/// 10 mm cells refined twice, and a surface that lies on none of their faces: what setFields puts half a cell
+/// off is put right on the refined mesh, and the water is at rest from the first step on.
+TEST(RefinedMeshFromCoarse, StartsAtRestWhereTheCaseSays) {
+  const double level = 0.0974, finest = 0.0025;
+  RefinementParameters refinement;
+  refinement.levels = 2;
+  Settings settings = refined;
+  settings.erase("mesh");
+  settings.insert({{"lx", "0.1"}, {"ly", "0.05"}, {"lz", "0.2"}, {"nx", "10"}, {"ny", "5"}, {"nz", "20"}});
+  const FoamCase box("refined_start", settings);
+  std::ofstream(box.folder() + "/system/setFieldsDict")
+      << "FoamFile { version 2.0; format ascii; class dictionary; object setFieldsDict; }\n"
+      << "defaultFieldValues ( volScalarFieldValue alpha.water 0 volVectorFieldValue U (0 0 0) );\n"
+      << "regions ( boxToCell { box (0 0 0) (1 1 " << level
+      << "); fieldValues ( volScalarFieldValue alpha.water 1 ); } );\n";
+  box.run("setFields");
+  const auto flow = box.open(scene(false, false, false), &refinement);
+  const double start = liquid_volume(*flow) / (0.1 * 0.05);
+  double fastest = 0;
+  for (int step = 0; step < 20 && advance_clock(*flow); ++step) {
+    do_step(*flow);
+    fastest = std::max(fastest, largest_speed(*flow));
+  }
+  const double end = liquid_volume(*flow) / (0.1 * 0.05);
+  std::cout << flow->mesh.nCells() << " cells, level " << start << " m at the start, " << end
+            << " m at the end, fastest " << fastest << " m/s\n";
+  EXPECT_GT(flow->mesh.nCells(), 5000);
+  EXPECT_LT(std::abs(start - level), 0.5 * finest + 1e-9);
+  EXPECT_LT(std::abs(end / start - 1), 1e-12);
+  EXPECT_LT(fastest, 1e-5);
+}
+
+/// A run that goes on has a surface of its own: fields that are not what setFieldsDict says are never set
+/// again.
+TEST(RefinedMeshFromCoarse, LeavesOtherFieldsAlone) {
+  RefinementParameters refinement;
+  Settings settings = refined;
+  settings.erase("mesh");
+  const FoamCase box("refined_restart", settings);
+  box.run("setFields");
+  {
+    std::ofstream other(box.folder() + "/system/setFieldsDict", std::ios::app);
+    other << "regions ( boxToCell { box (0 0 0) (0.08 0.1 0.1); fieldValues ( volScalarFieldValue "
+             "alpha.water 1 "
+             "); } );\n";
+  }
+  const auto flow = box.open(scene(false, false, false), &refinement);
+  EXPECT_EQ(flow->mesh.nCells(), 6000);
+  EXPECT_NEAR(liquid_volume(*flow), 0.05 * 0.1 * 0.1, 1e-12);
+}
+
+/// No surface: only what else is asked for is fine, and nothing when nothing is.
+TEST(RefinementCriteria, ParticlesAndSteepVoidFraction) {
+  const auto eps = [](const vector& x) { return Foam::mag(x - vector(0.1, 0.05, 0.15)) < 0.03 ? 0.6 : 1.0; };
+  const auto cells_with = [&](bool particles, double porosity_jump, const char* name, auto&& must_be_fine) {
+    RefinementParameters refinement;
+    refinement.levels = 1;
+    refinement.particles = particles;
+    refinement.porosity_jump = porosity_jump;
+    Settings settings = refined;
+    settings.erase("mesh");
+    const auto flow = FoamCase(name, settings).open(scene(true, true, false), &refinement);
+    const scalarField bed = cell_values(*flow, eps);
+    set_initial_porosity(*flow, bed);
+    begin_window(*flow, 1e-3);
+    set_porosity_target(*flow, bed);
+    advance_clock(*flow);
+    refine_mesh(*flow);
+    forAll(flow->mesh.C(), cell) {
+      if (!must_be_fine(flow->mesh.C()[cell])) continue;
+      EXPECT_LT(flow->mesh.V()[cell], 0.13e-6) << name << ", cell " << cell;
+    }
+    return flow->mesh.nCells();
+  };
+  const auto distance = [](const vector& x) { return Foam::mag(x - vector(0.1, 0.05, 0.15)); };
+  const label none = cells_with(false, 0, "criterion_none", [](const vector&) { return false; });
+  const label particles =
+      cells_with(true, 0, "criterion_particles", [&](const vector& x) { return distance(x) < 0.03; });
+  const label edge = cells_with(false, 0.1, "criterion_jump",
+                                [&](const vector& x) { return std::abs(distance(x) - 0.03) < 0.003; });
+  const label smooth = cells_with(false, 0.5, "criterion_no_jump", [](const vector&) { return false; });
+  std::cout << "cells: " << none << " without a criterion, " << particles << " around particles, " << edge
+            << " at a jump of 0.4 above 0.1, " << smooth << " above 0.5\n";
+  EXPECT_EQ(none, 6000);
+  EXPECT_EQ(smooth, 6000);
+  EXPECT_GT(particles, 6000);
+  EXPECT_GT(edge, 6000);
 }
 
 }  // namespace

@@ -31,3 +31,24 @@ def surface_height(column, spacing):
     low = above[-1]
     share = (column[low] - 0.5) / (column[low] - column[low + 1])
     return float((low + 0.5 + share) * spacing)
+
+
+def sampled(run, time, shape, spacing, offset=(0, 0, 0)):
+    """alpha of the cells of any mesh that hold the points offset + (i + 0.5, j + 0.5, k + 0.5) spacing, [x, y, z]."""
+    from reporting.fields import Fluid
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+    from vtkmodules.vtkFiltersCore import vtkProbeFilter
+
+    fluid = Fluid(run.folder)
+    [mesh] = fluid.meshes(min(fluid.times, key=lambda t: abs(t - float(time))))
+    points = vtkImageData()
+    points.SetDimensions(*shape)
+    points.SetSpacing(spacing, spacing, spacing)
+    points.SetOrigin(*(o + 0.5 * spacing for o in offset))
+    probe = vtkProbeFilter()
+    probe.SetInputData(points)
+    probe.SetSourceData(mesh)
+    probe.Update()
+    values = vtk_to_numpy(probe.GetOutput().GetPointData().GetArray(fluid.alpha))
+    return values.reshape(tuple(reversed(shape))).transpose()

@@ -1,16 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One sphere enters water as a drop on the fine mesh: replacement.py DEMVOF [--long]
+"""One sphere enters water as a drop on the fine mesh: replacement.py DEMVOF [--long | --refined]
 
 Paper, section 7.2, second variant: 4 mm, 2000 kg/m3, at 0.5 m/s just above a surface at rest; bulk cells of 5 mm.
-Short: a box of 0.02 x 0.02 x 0.06 m in cells of 1 mm, until the sphere has its place back.
+Short: a box of 0.02 x 0.02 x 0.06 m in cells of 1 mm, until the sphere has its place back; the same on a mesh of
+4 mm that refines itself to 1 mm at the surface and around the sphere.
 Long: the paper's box on 108k and 500k cells, crater at 0.03 s, and porous and volume_adding on 108k beside it.
+Refined: the same box on 62 500 cells of 2 mm that refine themselves to the 1 mm of the 500k, against its record.
 """
+import json
 import math
+import pathlib
 import sys
 
 from box_case import BoxCase, Open, Particle, Wall, SIDES, scratch
-from box_fields import cell_field, output_times, surface_height
+from box_fields import cell_field, output_times, sampled, surface_height
 from record import Record
 
 DIAMETER, DENSITY, SPEED, WATER = 4e-3, 2000, 0.5, 1000
@@ -23,20 +27,24 @@ def level_on(mesh_spacing, level):
     return round(level / mesh_spacing) * mesh_spacing
 
 
-def enter(folder, demvof, box, level, fine, bulk, end_time, interchange):
-    """level: of the mesh (level_on)."""
+def enter(folder, demvof, box, level, fine, bulk, end_time, interchange, levels=0):
+    """level: of the mesh (level_on). levels: the mesh of cells `fine` is halved so often where it matters."""
     width = box[0]
     case = BoxCase(folder, box, fine, bulk, end_time, window=5e-4, level=level,
                    sides={side: Open() if side == "z+" else Wall() for side in SIDES}, tolerance=1e-9,
                    particles=[Particle((width / 2, width / 2, level + DIAMETER / 2 + GAP), DIAMETER, DENSITY,
                                        velocity=(0, 0, -SPEED))],
-                   coupling={"phase_interchange": interchange})
+                   coupling={"phase_interchange": interchange},
+                   sections={"fluid": {"refinement": {"levels": levels, "particles": True}}} if levels else {})
     return case.run(demvof, timeout=20000)
 
 
-def profile(run, box, fine):
-    """Height of alpha = 0.5, seen from above, along x through the axis (mean of the two middle rows, m)."""
-    alpha = cell_field(run, output_times(run)[-1], "alpha.water", fine)
+def profile(run, box, fine, refined=False):
+    """Height of alpha = 0.5, seen from above, along x through the axis (mean of the two middle rows, m).
+
+    refined: the mesh is another one, seen at the centres of the cells `fine`."""
+    last = output_times(run)[-1]
+    alpha = sampled(run, last, fine, box[2] / fine[2]) if refined else cell_field(run, last, "alpha.water", fine)
     spacing, j = box[2] / fine[2], fine[1] // 2
     x = [(i + 0.5) * box[0] / fine[0] for i in range(fine[0])]
     return x, [0.5 * (surface_height(alpha[i, j - 1], spacing) + surface_height(alpha[i, j], spacing))
@@ -73,6 +81,12 @@ def short(record, demvof):
     check_books(record, run, "24k cells", back=True)
     x, heights = profile(run, box, fine)
     record.note("24k cells: crater at the end", crater_depth(heights, level), "m")
+    run = enter(scratch("replacement") / "short_refined", demvof, box, level, (5, 5, 15), (4, 4, 12), 0.06, "replacement",
+                levels=2)
+    check_books(record, run, "refined from 375 cells", back=True)
+    record.at_least("refined from 375 cells: changes of the mesh", run.results["cells"]["mesh_changes"], 3)
+    record.at_most("refined from 375 cells: warnings of a drop in coarse cells",
+                   sum("became liquid with" in line for line in run.results["warnings"]), 0)
 
 
 def long(record, demvof):
@@ -96,7 +110,34 @@ def long(record, demvof):
                    abs(depths["replacement, 108k cells"] - depths["replacement, 500k cells"]) / (box[0] / 30), 1)
 
 
+def refined(demvof):
+    box, level, fine = (0.05, 0.05, 0.20), 0.051, (50, 50, 200)
+    text = (pathlib.Path(__file__).parents[3] / "docs/verification/records/replacement.json").read_text()
+    uniform = {check["name"]: check["value"] for check in json.loads(text)["values"]}
+    record = Record("replacement_refined", "Phase interchange by replacement on a mesh that refines itself",
+                    "The sphere of the record `replacement` enters water on 62 500 cells of 2 mm that refine themselves to "
+                    "1 mm at the surface and around the sphere, against 1 mm everywhere (500k). Run times: both "
+                    "on a machine that was busy with other work.",
+                    "tests/Alltest --verification -- -R pair.replacement_refined")
+    run = enter(scratch("replacement") / "refined", demvof, box, level, (25, 25, 100), (10, 10, 40), 0.03, "replacement",
+                levels=1)
+    check_books(record, run, "refined", back=False)
+    x, heights = profile(run, box, fine, refined=True)
+    depth, other = crater_depth(heights, level), uniform["replacement, 500k cells: crater at 0.03 s"]
+    record.note("refined: most fine cells", run.results["cells"]["fine_max"])
+    record.note("refined: crater at 0.03 s", depth, "m")
+    record.at_most("crater at 0.03 s: refined against 500k, in cells of 1 mm", abs(depth - other) / 1e-3, 1)
+    seconds = run.results["wall_seconds"]["total"]
+    record.note("refined: run time", seconds, "s")
+    record.note("run time of the 500k / refined", uniform["replacement, 500k cells: run time"] / seconds)
+    record.curve("surface at 0.03 s", "x, m", "height of alpha = 0.5 above the level, m", "refined", x,
+                 [h - level for h in heights], style="-")
+    return record.write()
+
+
 def main():
+    if "--refined" in sys.argv:
+        return refined(sys.argv[1])
     is_long = "--long" in sys.argv
     record = Record("replacement", "Phase interchange by replacement: a sphere enters water",
                     "A sphere of 4 mm (2000 kg/m3) at 0.5 m/s just above a water surface is replaced by a drop of its "

@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Nothing is lost when the mesh changes, on one and on two fluid ranks: refinement.py DEMVOF
+
+Water sloshes in a slanted field of gravity, twelve beads fall through its surface, and a mesh of 5 mm refines itself
+to 1.25 mm at the surface, around the beads and where the void fraction jumps. The cut between the two ranks goes
+through the moving surface.
+"""
+import sys
+
+from box_case import BoxCase, Open, Particle, Wall, SIDES, scratch
+from record import Record
+
+
+def main():
+    record = Record("refinement", "Conservation while the mesh refines itself",
+                    "Sloshing water and falling beads on a mesh of 5 mm that refines itself to 1.25 mm at the surface, "
+                    "around the beads and at jumps of the void fraction, 0.06 s. Largest error over all windows.",
+                    "tests/Alltest -- -R pair.refinement")
+    beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
+                      velocity=(0, 0, -0.3)) for i in range(12)]
+    for ranks in (1, 2):
+        case = BoxCase(scratch("refinement") / f"{ranks}", (0.04, 0.02, 0.04), (8, 4, 8), (8, 4, 8), 0.06, window=1e-3,
+                       level=0.0174, gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads, longest_step=1e-3,
+                       sides={side: Open() if side == "z+" else Wall() for side in SIDES},
+                       sections={"fluid": {"refinement": {"levels": 2, "particles": True, "porosity_jump": 0.05}}})
+        run = case.run(sys.argv[1], "--fluid-ranks", str(ranks))
+        name = f"{ranks} fluid rank" + ("s" if ranks > 1 else "")
+        cells, conservation = run.results["cells"], run.results["conservation"]
+        record.at_least(f"{name}: changes of the mesh", cells["mesh_changes"], 10)
+        record.at_most(f"{name}: liquid volume", conservation["liquid_volume"], 1e-11)
+        record.at_most(f"{name}: solid volume", conservation["solid_volume"], 1e-11)
+        record.at_most(f"{name}: momentum exchange", conservation["exchange"], 1e-12)
+        record.note(f"{name}: most fine cells", cells["fine_max"])
+        record.note(f"{name}: most cells on a rank over the mean", cells["imbalance"])
+    return record.write()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
