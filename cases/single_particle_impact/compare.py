@@ -92,8 +92,8 @@ def main():
     for time, panel in zip(arguments.times, panels[0]):
         panel.set(title=f"t = {time:g} s", xlabel="y, mm", ylabel="z of the surface, mm")
         panel.axhline(1e3 * LEVEL, color="#9aa4ad", linewidth=0.8, linestyle="--")
-    panels[0, 0].legend()
-    figure.tight_layout()
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="lower center", ncol=4)
+    figure.tight_layout(rect=(0, 0.07, 1, 1))
     if arguments.picture:
         figure.savefig(arguments.picture, dpi=100)
     if arguments.json:
