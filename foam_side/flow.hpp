@@ -125,6 +125,12 @@ void refine_start(Flow& flow);
 /// The void fraction at the start: a state, not a change. eps: one value per cell.
 void set_initial_porosity(Flow& flow, const scalarField& eps);
 
+/// p_rgh, and p, in balance with the forces on the fluid at the start, to the solver's tolerance.
+void balance_pressure(Flow& flow);
+
+/// p_rgh is the same everywhere, as in most cases' 0 folder: it is no state to start from.
+bool pressure_says_nothing(const Flow& flow);
+
 // ---- a window ----------------------------------------------------------------------------------
 
 /// From here to t_end (s) the clock divides what is left into equal steps; implicit_impulse starts at 0.

@@ -78,23 +78,6 @@ void renew_geometry(Flow& flow) {
   flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
 }
 
-/// Pressure of the fluid as it stands, div(M (face_force - grad p_rgh)) = 0, to the solver's tolerance: the
-/// first step's few corrections do not get there, because faces between fine and coarse cells are taken
-/// explicitly.
-void balance_pressure(Flow& flow) {
-  constexpr int most = 30;  // solutions
-  update_face_force(flow);
-  const tmp<surfaceScalarField> mobility = projection_mobility(flow);
-  const surfaceScalarField forced("phiHbyA", mobility() * flow.face_force());
-  for (int n = 0; n < most; ++n) {
-    Foam::constrainPressure(flow.p_rgh, flow.U, forced, mobility());
-    Foam::fvScalarMatrix equation(fvm::laplacian(mobility(), flow.p_rgh) == fvc::div(forced));
-    equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
-    if (equation.solve(flow.mesh.solver(flow.p_rgh.select(true))).nIterations() == 0) break;
-  }
-  flow.p == flow.p_rgh + flow.rho* flow.gh;
-}
-
 void record_balance(Flow& flow) {
   const double most = Foam::returnReduce(flow.mesh.nCells(), Foam::maxOp<label>());
   const double all = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());

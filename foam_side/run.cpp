@@ -79,6 +79,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
   bridge.take(link.receive<BulkParticles>());
   if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
   if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
+  if (pressure_says_nothing(flow)) balance_pressure(flow);
   flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
   record.start(flow, json::parse(link.swap_text("{}")));
   fields.write(flow, true);

@@ -66,7 +66,7 @@ def draw(runs, file):
     panels[0, 0].legend()
     for axes in panels[-1]:
         axes.set_xlabel("t sqrt(2 g / a)")
-    figure.savefig(file, dpi=110)
+    figure.savefig(file, dpi=85)
 
 
 def main():
