@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "coupler/link/errors.hpp"
 #include "coupler/link/mpi_check.hpp"
@@ -206,19 +207,30 @@ void Bridge::spread_sources() {
       source.coefficient[cell];
 }
 
+void Bridge::collect_impulse() {
+  volVectorField::Internal& given = flow_.source->implicit_impulse;
+  const auto& volume = flow_.mesh.V();
+  forAll(given, cell) collected_sum_ += volume[cell] * to_vec3(given[cell]);
+  if (hands_back_left_over(parameters_.coupling.exchange)) {
+    std::vector<Vec3> impulse(touched_.size());
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      impulse[pieces_[i].slot] -=
+          coefficient_part_[i] * volume[pieces_[i].fine] * to_vec3(given[pieces_[i].fine]);
+    const CellValues<Vec3> owned = remap_->cells().sum_to_owners(impulse);
+    for (std::size_t i = 0; i < owned.cells.size(); ++i) collected_[owned.cells[i]] += owned.values[i];
+  }
+  given = Foam::dimensionedVector(given.dimensions(), Foam::Zero);
+}
+
 void Bridge::end_window() {
+  collect_impulse();
+  implicit_impulse_ = std::exchange(collected_sum_, Vec3{});
   left_over_ = {};
-  if (!hands_back_left_over(parameters_.coupling.exchange)) return;
-  std::vector<Vec3> impulse(touched_.size());
-  for (std::size_t i = 0; i < pieces_.size(); ++i)
-    impulse[pieces_[i].slot] -= coefficient_part_[i] * flow_.mesh.V()[pieces_[i].fine] *
-                                to_vec3(flow_.source->implicit_impulse[pieces_[i].fine]);
-  const CellValues<Vec3> owned = remap_->cells().sum_to_owners(impulse);
-  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
-    const BulkParticles* particles = find(owned_, owned.cells[i]);
+  for (const auto& [cell, impulse] : std::exchange(collected_, {})) {
+    const BulkParticles* particles = find(owned_, cell);
     if (!particles) continue;
-    left_over_.cells.push_back(owned.cells[i]);
-    left_over_.values.push_back({owned.values[i], particles->drag_factor});
+    left_over_.cells.push_back(cell);
+    left_over_.values.push_back({impulse, particles->drag_factor});
   }
 }
 
@@ -310,11 +322,8 @@ void Bridge::sample_points(const Foam::vectorField& gradient, const scalarField&
 
 Bridge::Impulses Bridge::impulses() const {
   const ParticleSource& source = *flow_.source;
-  vector explicit_force = vector::zero, implicit_impulse = vector::zero;
-  forAll(source.force, cell) {
-    explicit_force += flow_.mesh.V()[cell] * source.force[cell];
-    implicit_impulse += flow_.mesh.V()[cell] * source.implicit_impulse[cell];
-  }
+  vector explicit_force = vector::zero, implicit_impulse = to_foam(implicit_impulse_);
+  forAll(source.force, cell) explicit_force += flow_.mesh.V()[cell] * source.force[cell];
   Foam::reduce(explicit_force, Foam::sumOp<vector>());
   Foam::reduce(implicit_impulse, Foam::sumOp<vector>());
   return {parameters_.coupling.window * to_vec3(explicit_force), to_vec3(implicit_impulse)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -52,8 +53,12 @@ class Bridge {
   /// cell as coupling.sharing says, with the mass that is in them now. In every fluid step.
   void spread_sources();
 
-  /// Notes what the implicit part of the sources gave the fluid of each bulk cell since begin_window:
-  /// it is owed to the particles.
+  /// Notes what the implicit part of the sources gave the fluid of each bulk cell since begin_window or the
+  /// last call: it is owed to the particles. Before each change of the mesh, because new cells cannot tell
+  /// which bulk cell it came from.
+  void collect_impulse();
+
+  /// The rest of the window's, and then what is owed as a whole.
   void end_window();
 
   /// The fluid on the active bulk cells owned by this rank, and the impulse owed to their particles,
@@ -104,6 +109,8 @@ class Bridge {
   std::unique_ptr<FluidSampler> sampler_;  // only for a mapping to the bulk grid that takes values at points
   bool reconstructs_ = false;              // pieces of a fine cell differ: a linear profile in the fine cells
   CellValues<BulkParticles> owned_;        // as received
+  std::map<CellId, Vec3> collected_;       // owned cells: impulse owed from this window so far, N s
+  Vec3 collected_sum_, implicit_impulse_;  // what the fine cells got, this rank, N s: so far; in the window
   CellValues<LeftOver> left_over_;         // owned cells; not handed over yet
   CellValues<double> solid_volume_;        // of these, m3
   CellValues<double> solid_volume_before_;

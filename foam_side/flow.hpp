@@ -14,6 +14,7 @@
 // Source: Pozzetti & Peters, Int. J. Multiphase Flow 99 (2018), eqs. 7-24, 36. The stages of a step
 // are called in the order in which they are declared; each has a file of its own.
 
+#include <functional>
 #include <memory>
 
 #include "coupler/scene/scene.hpp"
@@ -44,7 +45,8 @@ struct ParticleSource {
   volVectorField::Internal force;             // N/m3
   volScalarField::Internal coefficient;       // C, kg/(m3 s)
   volVectorField::Internal reference;         // u_ref, m/s
-  volVectorField::Internal implicit_impulse;  // sum of dt C (u_ref - u) since begin_window, N s/m3
+  volVectorField::Internal implicit_impulse;  // sum of dt C (u_ref - u) since begin_window or the last
+                                              // Bridge::collect_impulse, N s/m3
 };
 
 /// Time step: interFoam's rule, or, inside a window, equal parts of what is left of it.
@@ -144,7 +146,8 @@ void set_porosity_target(Flow& flow, const scalarField& eps);
 // ---- a time step, in this order ----------------------------------------------------------------
 
 bool advance_clock(Flow& flow);  // false at the window's end, or without windows at the run's end
-bool refine_mesh(Flow& flow);    // true if the mesh changed: fields are mapped; then the next two
+/// True if the mesh changed: fields are mapped; then the next two. before: done when the mesh may change.
+bool refine_mesh(Flow& flow, const std::function<void()>& before = {});
 void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end);  // with particles
 void settle_flux(Flow& flow);
 void update_porosity(Flow& flow);

@@ -88,12 +88,13 @@ void record_balance(Flow& flow) {
 
 }  // namespace
 
-bool refine_mesh(Flow& flow) {
+bool refine_mesh(Flow& flow, const std::function<void()>& before) {
   if (!flow.mesh.dynamic()) return false;
   if (flow.refinement && !flow.refinement->due(flow)) {
     flow.mesh.topoChanging(false);
     return false;
   }
+  if (before) before();
   flow.face_force.clear();
   flow.pressure_system = PressureSystem();
   // At the start the mesh may be as coarse as the case's: every level at once, each from the one before.

@@ -50,7 +50,10 @@ class FieldOutput {
 bool step_fluid(Flow& flow, Bridge* bridge) {
   if (!advance_clock(flow)) return false;
   run_stage().set("fluid step", flow.time.value());
-  if (refine_mesh(flow)) {
+  const auto before_change = [bridge] {
+    if (bridge) bridge->collect_impulse();
+  };
+  if (refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
     if (flow.porosity) renew_porosity(flow, bridge->void_fraction_before(), bridge->void_fraction());
     settle_flux(flow);
