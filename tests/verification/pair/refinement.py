@@ -19,13 +19,18 @@ def main():
                     "tests/Alltest -- -R pair.refinement")
     beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
                       velocity=(0, 0, -0.3)) for i in range(12)]
-    for ranks in (1, 2):
-        case = BoxCase(scratch("refinement") / f"{ranks}", (0.04, 0.02, 0.04), (8, 4, 8), (8, 4, 8), 0.06, window=1e-3,
+    nested = (0.04, 0.02, 0.04), (8, 4, 8), (8, 4, 8)  # size, fine cells, bulk cells
+    # Three steps in a window: the mesh changes within it, too.
+    # Longer than the beads' reach, and bulk cells that cut through fine ones: some with beads on one side only.
+    across = (0.1, 0.02, 0.04), (20, 4, 8), (19, 3, 7)
+    for ranks, box in ((1, nested), (2, nested), (1, across)):
+        criteria = {"particles": True, "porosity_jump": 0.05} if box is nested else {}
+        case = BoxCase(scratch("refinement") / f"{ranks}_{box[1][0]}", *box, 0.06, window=3e-3,
                        level=0.0174, gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads, longest_step=1e-3,
                        sides={side: Open() if side == "z+" else Wall() for side in SIDES},
-                       sections={"fluid": {"refinement": {"levels": 2, "particles": True, "porosity_jump": 0.05}}})
+                       sections={"fluid": {"refinement": {"levels": 2, **criteria}}})
         run = case.run(sys.argv[1], "--fluid-ranks", str(ranks))
-        name = f"{ranks} fluid rank" + ("s" if ranks > 1 else "")
+        name = f"{ranks} fluid rank" + ("s" if ranks > 1 else "") + ("" if box is nested else ", bulk grid across the mesh")
         cells, conservation = run.results["cells"], run.results["conservation"]
         record.at_least(f"{name}: changes of the mesh", cells["mesh_changes"], 10)
         record.at_most(f"{name}: liquid volume", conservation["liquid_volume"], 1e-11)
