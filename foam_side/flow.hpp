@@ -166,7 +166,8 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 // ---- used by several stages --------------------------------------------------------------------
 
 /// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
-/// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves.
+/// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves. Solver of
+/// fvSolution: pcorr with a wanted rate, which the next step makes up for where it is missed; else pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
 /// The same for any flux of volume.

@@ -113,13 +113,14 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
 
+  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for alpha.
+  const Foam::dictionary& solver = flow.mesh.solver(potential.select(wanted_rate == nullptr));
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
     if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;
     equation.setReference(0, 0);
-    const bool last = flow.pimple.finalNonOrthogonalIter();
-    equation.solve(flow.mesh.solver(potential.select(last)));
-    if (last) flux -= equation.flux();
+    equation.solve(solver);
+    if (flow.pimple.finalNonOrthogonalIter()) flux -= equation.flux();
   }
 }
 
