@@ -88,7 +88,7 @@ Refinement::Refinement(const Foam::fvMesh& mesh, const RefinementParameters& giv
 
 bool Refinement::due(const Flow& flow) {
   crossed += flow.clock.interface_courant;
-  if (!first && crossed < 0.5 * parameters.buffer && !particles_leave(flow)) return false;
+  if (!first && crossed < parameters.buffer - 0.5 && !particles_leave(flow)) return false;
   crossed = 0;
   return true;
 }

@@ -18,9 +18,9 @@ void write_mesh_dictionary(const std::filesystem::path& fluid_case, const Refine
 ///
 /// Marked are cells with 0.01 < alpha < 0.99, both cells of a face over which alpha jumps by more than 0.01
 /// and, as the case asks, cells with particles and both cells of a face over which eps jumps; then rings of
-/// neighbours. The mesh is renewed before the interface has passed half of the rings: when the sum of the
-/// interface's Courant numbers since the last time reaches half their number; and, if cells with particles
-/// are asked for, when one of them is not fine.
+/// neighbours. The mesh is renewed before the interface gets within half a cell of coarser ones: when the
+/// sum of its Courant numbers since the last time reaches the number of rings less a half; and, if cells
+/// with particles are asked for, when one of them is not fine.
 struct Refinement {
   Refinement(const Foam::fvMesh& mesh, const RefinementParameters& parameters);
 

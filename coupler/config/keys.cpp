@@ -169,7 +169,7 @@ std::vector<Key> make_keys() {
           DEMVOF_AT(fluid.refinement->levels)),
       key("fluid.refinement.buffer", integer(1, 20),
           "Rings of cells around the interface that are fine too; the mesh is renewed before the interface "
-          "has crossed half of them.",
+          "has come within half a cell of coarser ones.",
           DEMVOF_AT(fluid.refinement->buffer)),
       key("fluid.refinement.particles", flag(), "Fine wherever there are particles.",
           DEMVOF_AT(fluid.refinement->particles)),
