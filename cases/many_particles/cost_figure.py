@@ -18,10 +18,11 @@ from reporting.figures import COLOURS, SIZE, pyplot  # noqa: E402
 
 PARTS = ("fluid", "particles", "exchange")
 STEPS = 20
+BULK_CELLS = 625
 
 
 def read(path):
-    """{beads: [(fine cells, {part: seconds per step}, peak memory of the particle side in bytes)]}"""
+    """{beads: [(fine cells, {part: seconds per step}, peak memory of both sides in bytes)]}, the single-scale run first."""
     found = {}
     for row in json.loads(path.read_text())["rows"]:
         if row["status"] != "completed":
@@ -30,7 +31,11 @@ def read(path):
         beads = int(row["name"].split("_")[0])
         parts = {part: row["parts_seconds"][part] / STEPS for part in PARTS}
         found.setdefault(beads, []).append((row["cells"]["fine_max"], parts, row["peak_memory_bytes"]))
-    return {beads: sorted(runs, key=lambda run: run[0]) for beads, runs in found.items()}
+    for beads, runs in found.items():
+        runs.sort(key=lambda run: run[0])
+        if runs[0][0] != BULK_CELLS:
+            sys.exit(f"{beads} beads: no single-scale run ({BULK_CELLS} cells) to relate the others to")
+    return found
 
 
 def total(parts):
@@ -38,7 +43,7 @@ def total(parts):
 
 
 def table(found):
-    lines = ["| beads | fine cells | fluid | particles | exchange | step | over single-scale | memory |",
+    lines = ["| beads | fine cells | fluid | particles | exchange | step | over single-scale | memory, both sides |",
              "| --- | --- | --- | --- | --- | --- | --- | --- |"]
     for beads, runs in found.items():
         for cells, parts, memory in runs:

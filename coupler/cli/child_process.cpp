@@ -24,10 +24,8 @@ namespace {
     dup2(options.output, STDOUT_FILENO);
     dup2(options.output, STDERR_FILENO);
   }
-  if (options.own_group) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-  }
+  if (options.own_group) setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 0);
   if (options.directory.empty() || chdir(options.directory.c_str()) == 0) execvp(arguments[0], arguments);
   const int error = errno;

@@ -15,10 +15,11 @@ struct ChildOptions {
   std::filesystem::path directory;                 // to run in; empty: here
   std::map<std::string, std::string> environment;  // set unless the user's environment has it
   int output = -1;         // file descriptor for stdout and stderr; -1: this program's
-  bool own_group = false;  // Ctrl-C on the terminal does not reach it; it ends when this program dies
+  bool own_group = false;  // Ctrl-C on the terminal does not reach it
 };
 
-/// One program started by this one. It reads nothing from the terminal.
+/// One program started by this one. It reads nothing from the terminal, and is terminated when this program
+/// dies.
 class ChildProcess {
  public:
   /// command: program (looked up in PATH) and arguments. Throws std::runtime_error when it cannot start.

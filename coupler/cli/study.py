@@ -8,6 +8,7 @@ Exit status: 0 every row is done, 2 the study file is wrong, 3 a row failed or t
 Needs matplotlib and PyYAML.
 """
 import argparse
+import fcntl
 import os
 import pathlib
 import signal
@@ -29,6 +30,17 @@ except ImportError as error:
 
 def say(line):
     print(line, flush=True)
+
+
+def lock(out):
+    """A file that no other study in this folder may have, and no run of one that was killed; waits for their end."""
+    file = open(out / ".lock", "w", encoding="utf-8")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        say(f"study: waiting, another study or its last run is at work in {out}")
+        fcntl.flock(file, fcntl.LOCK_EX)
+    return file
 
 
 def write_results(plan, runs, out):
@@ -67,6 +79,8 @@ def main():
     runs = Runs(plan, out, arguments.demvof, say)
     interrupted = False
     try:
+        if not arguments.no_runs:
+            runs.lock = lock(out)
         for row in plan.rows:
             if not arguments.no_runs and (not arguments.only or row.name in arguments.only):
                 runs.make(row)

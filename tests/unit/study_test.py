@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import textwrap
+import time
 import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "coupler" / "cli" / "study.py"
@@ -17,12 +18,14 @@ from studying.plan import BadStudy, assignment, read_plan  # noqa: E402
 
 # Writes q(t) = t (1 + error) for t = 0.1 .. 1; coupling.window is the error, wall time 1 / window.
 STAND_IN = """#!/usr/bin/python3
-import json, pathlib, sys, yaml
+import json, pathlib, sys, time, yaml
 words = sys.argv[1:]
 if words == ["--version"]:
     print("demvof stand-in"); sys.exit(0)
 with open(pathlib.Path(__file__).parent / "calls", "a") as calls:
     calls.write(" ".join(words) + "\\n")
+if (pathlib.Path(__file__).parent / "slow").exists():
+    time.sleep(60)
 out = pathlib.Path(words[words.index("--out") + 1]); out.mkdir(parents=True, exist_ok=True)
 settings = dict(w.split("=", 1) for w in words if "=" in w)
 error = float(yaml.safe_load(settings["coupling.window"]))
@@ -99,6 +102,40 @@ class Study(unittest.TestCase):
         self.study.write_text(STUDY.replace("window: 0.1", "window: 0.11"))
         self.make()
         self.assertEqual(self.calls(), first + 3)  # the changed row and the failed one
+
+    def begin(self):
+        return subprocess.Popen([sys.executable, str(SCRIPT), str(self.study), "--demvof", str(self.demvof)],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def wait_for_a_run(self):
+        until = time.monotonic() + 30
+        while not (self.folder / "calls").exists() and time.monotonic() < until:
+            time.sleep(0.05)
+        self.assertEqual(self.calls(), 1)
+
+    def test_killed_and_started_again(self):
+        (self.folder / "slow").touch()
+        killed = self.begin()
+        self.wait_for_a_run()
+        killed.kill()
+        (self.folder / "slow").unlink()
+        killed.communicate(timeout=30)  # nobody holds its output any more: the run has ended, too
+        _, found = self.make()
+        self.assertEqual({row["status"] for row in found["rows"]}, {"completed", "failed"})
+        self.assertEqual(self.calls(), 1 + 6)  # the killed run and all rows
+
+    def test_two_at_a_time_wait_for_each_other(self):
+        (self.folder / "slow").touch()
+        first = self.begin()
+        self.wait_for_a_run()
+        second = self.begin()
+        line = second.stdout.readline()
+        (self.folder / "slow").unlink()
+        self.assertIn("waiting", line)
+        first.terminate()
+        first.communicate(timeout=30)
+        second.communicate(timeout=60)
+        self.assertEqual(self.calls(), 1 + 6)
 
     def test_no_runs_and_only(self):
         done, found = self.make("--no-runs")

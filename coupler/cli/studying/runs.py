@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The runs of a study, one after the other; a finished one is not repeated."""
+import ctypes
 import hashlib
 import json
-import os
 import pathlib
+import signal
 import statistics
 import subprocess
+import time
 
 from reporting.run import NoRun, Run
 from studying.plan import assignment
@@ -27,7 +29,26 @@ def inputs_hash(case, extra):
     return digest.hexdigest()
 
 
+def busy_share():
+    """Share of the processors' time that other programs take, measured while none of this study runs."""
+    def times():  # user, nice, system, idle, waiting for disks, ... since the machine started
+        with open("/proc/stat", encoding="ascii") as stat:
+            return [int(word) for word in stat.readline().split()[1:]]
+    before = times()
+    time.sleep(0.2)
+    passed = [now - then for now, then in zip(times(), before)]
+    return 1 - (passed[3] + passed[4]) / max(sum(passed), 1)
+
+
+def end_with_parent():
+    """In a child: SIGTERM when the parent dies, by whatever it dies."""
+    set_parent_death_signal = 1
+    ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
+
+
 class Runs:
+    lock = None  # a file that the runs hold open until they end
+
     def __init__(self, plan, out, demvof, say):
         self.plan, self.out, self.demvof, self.say = plan, pathlib.Path(out), demvof, say
         version = subprocess.run([demvof, "--version"], capture_output=True, text=True, check=True).stdout
@@ -54,13 +75,14 @@ class Runs:
         (self.out / row.name).mkdir(parents=True, exist_ok=True)
         while len(times) < self.plan.repeat:
             folder = self.folder(row, len(times))
-            load = os.getloadavg()[0]
+            busy = busy_share()
             self.say(f"{row.name}: run {len(times) + 1} of {self.plan.repeat}"
-                     + (f" (the machine is busy: load {load:.1f})" if load > 0.5 * os.cpu_count() else ""))
+                     + (f" (other programs take {100 * busy:.0f} % of the machine)" if busy > 0.1 else ""))
             command = [self.demvof, "run", str(self.plan.case), "--out", str(folder), "--force", "--quiet"]
             for key, value in row.settings.items():
                 command += ["--set", assignment(key, value)]
-            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                                  pass_fds=[self.lock.fileno()] if self.lock else [], preexec_fn=end_with_parent)
             (self.out / row.name / "said.txt").write_text(done.stdout)
             run = self.run(row, len(times))
             if run is not None and run.status == "interrupted":
@@ -70,7 +92,7 @@ class Runs:
                 self.say(f"{row.name}: failed with code {done.returncode}: {last[0]}")
                 return
             times = times + [run.number("wall_seconds.total")]
-            mark = {"made_from": self.made_from[row.name], "wall_seconds": times, "load": load}
+            mark = {"made_from": self.made_from[row.name], "wall_seconds": times, "busy_before": busy}
             (self.out / row.name / MARK).write_text(json.dumps(mark) + "\n")
 
     def run(self, row, turn=0):
