@@ -32,6 +32,11 @@ def say(line):
     print(line, flush=True)
 
 
+def stop(*_):
+    """As Ctrl-C, also where a shell made the study deaf to that: in the background."""
+    raise KeyboardInterrupt
+
+
 def lock(out):
     """A file that no other study in this folder may have, and no run of one that was killed; waits for their end."""
     file = open(out / ".lock", "w", encoding="utf-8")
@@ -65,7 +70,7 @@ def main():
     parser.add_argument("--only", action="append", default=[])
     parser.add_argument("--no-runs", action="store_true")
     arguments = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    signal.signal(signal.SIGTERM, stop)
     try:
         plan = read_plan(arguments.study)
         unknown = set(arguments.only) - {row.name for row in plan.rows}

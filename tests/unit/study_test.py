@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -105,7 +106,9 @@ class Study(unittest.TestCase):
 
     def begin(self):
         return subprocess.Popen([sys.executable, str(SCRIPT), str(self.study), "--demvof", str(self.demvof)],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                # as a shell starts what runs in the background
+                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
 
     def wait_for_a_run(self):
         until = time.monotonic() + 30
