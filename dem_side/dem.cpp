@@ -2,6 +2,7 @@
 #include "dem_side/dem.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,38 @@
 #include "lammps.h"
 #include "modify.h"
 #include "update.h"
+#include "write_restart.h"
 
 namespace demvof {
 namespace {
 
+/// LIGGGHTS talks to standard output where it reads a restart file; what matters goes to its log.
+class Hush {
+ public:
+  Hush() : kept_(dup(STDOUT_FILENO)) {
+    std::fflush(stdout);
+    if (std::FILE* nothing = std::fopen("/dev/null", "w")) {
+      dup2(fileno(nothing), STDOUT_FILENO);
+      std::fclose(nothing);
+    }
+  }
+  ~Hush() {
+    std::fflush(stdout);
+    dup2(kept_, STDOUT_FILENO);
+    close(kept_);
+  }
+  Hush(const Hush&) = delete;
+  Hush& operator=(const Hush&) = delete;
+
+ private:
+  int kept_;
+};
+
 namespace fs = std::filesystem;
 
 constexpr const char* external_fix = "demvof_fluid_force";
+constexpr const char* last_forces =
+    "demvof_last_forces";  // rows for restart files: force, N, and torque, N m
 
 // The last error that LIGGGHTS wrote; its own words say best what it did not like.
 std::string error_line(const fs::path& log) {
@@ -52,17 +78,20 @@ void for_each_fix(const LAMMPS_NS::LAMMPS& liggghts, Function&& function) {
 
 }  // namespace
 
-Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log)
-    : world_(world), script_(script), log_(log) {
+Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::path& restart_file)
+    : world_(world), script_(script), log_(log), continued_(!restart_file.empty()) {
   if (!fs::is_regular_file(script))
     throw InputError(fmt::format("particles.script: there is no file {}", script.string()));
   fs::current_path(script.parent_path());
 
   // A region prints to the screen even when there is none (a crash in 3.8): it gets a file instead.
   std::vector<std::string> words = {"dem_side", "-screen", log.string(), "-log", "none", "-nocite"};
+  words.insert(words.end(), {"-var", "continued", restart_file.empty() ? "0" : "1"});
+  words.insert(words.end(), {"-var", "restart_file", restart_file.empty() ? "none" : restart_file.string()});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   by_the_script([&] {
+    const Hush hush;
     liggghts_ =
         std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), world);
     liggghts_->input->file(script.c_str());
@@ -103,13 +132,44 @@ void Dem::by_the_script(Work&& work) {
   }
 }
 
+// LIGGGHTS would begin a run with forces from the velocities of the whole step; the step before used those of
+// the half. The forces of that are part of the state.
 void Dem::set_up() {
+  add_particle_rows(last_forces, 6);
   by_the_script([&] { liggghts_->input->one("run 0 post no"); });
+  if (!continued_) return;
+  LAMMPS_NS::Atom& atom = *liggghts_->atom;
+  double* const* rows = particle_rows(last_forces);
+  for (int i = 0; i < atom.nlocal; ++i) {
+    std::copy_n(rows[i], 3, atom.f[i]);
+    std::copy_n(rows[i] + 3, 3, atom.torque[i]);
+  }
 }
 
 // "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
 void Dem::run(int steps) {
   guarded([&] { liggghts_->input->one(fmt::format("run {} pre no post no", steps).c_str()); });
+}
+
+void Dem::write_restart(const fs::path& file) {
+  const LAMMPS_NS::Atom& atom = *liggghts_->atom;
+  double* const* rows = particle_rows(last_forces);
+  for (int i = 0; i < atom.nlocal; ++i) {
+    std::copy_n(atom.f[i], 3, rows[i]);
+    std::copy_n(atom.torque[i], 3, rows[i] + 3);
+  }
+  guarded([&] {
+    // What LIGGGHTS knows of contacts is in its neighbour list; the file takes what is with the particles.
+    for_each_fix(*liggghts_, [](LAMMPS_NS::Fix& fix) {
+      if (std::string_view(fix.style) == "contacthistory") fix.setup_pre_exchange();
+    });
+    std::string name = file.string();
+    LAMMPS_NS::WriteRestart(liggghts_.get()).write(name.data());
+  });
+}
+
+long Dem::step() const {
+  return static_cast<long>(liggghts_->update->ntimestep);
 }
 
 ParticleArrays Dem::particles() const {
@@ -192,8 +252,8 @@ void Dem::add_fix(std::vector<std::string> words) {
 }
 
 void Dem::add_particle_rows(const std::string& name, int width) {
-  // no restart data, no communication to ghosts in either direction, zeros for new particles
-  std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "no", "no", "no"};
+  // restart data, no communication to ghosts in either direction, zeros for new particles
+  std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "yes", "no", "no"};
   words.insert(words.end(), std::max(width, 2), "0.0");  // LIGGGHTS takes no vector of one
   add_fix(std::move(words));
 }

@@ -44,23 +44,34 @@ struct ParticleCensus {
 /// coupled run starts from the state in which the script ends. Relative paths in the script count
 /// from the folder it lies in: the constructor makes that the working folder.
 ///
+/// A script whose run is to be continued asks the variable ${continued}: 0 at a start, and 1 when it has to
+/// read ${restart_file} in place of making a box and particles (docs/howto_your_own_case.md).
+///
 /// Everything LIGGGHTS prints goes to the log file. When LIGGGHTS itself gives up, the message carries
 /// the error line of that file.
 class Dem {
  public:
-  /// Collective over world. script, log: absolute paths.
+  /// Collective over world. script, log: absolute paths. restart_file: what write_restart() of an earlier run
+  /// has left, absolute; empty: a start.
   /// Throws InputError when the script is missing, leaves out something of the above, or LIGGGHTS
   /// refuses it.
-  Dem(MPI_Comm world, const std::filesystem::path& script, const std::filesystem::path& log);
+  Dem(MPI_Comm world, const std::filesystem::path& script, const std::filesystem::path& log,
+      const std::filesystem::path& restart_file = {});
   ~Dem();
   Dem(const Dem&) = delete;
   Dem& operator=(const Dem&) = delete;
 
   /// Computes the forces of the state reached by the script. Once, before the first run; whatever
-  /// adds forces is attached before. Throws InputError when LIGGGHTS finds the script incomplete.
+  /// adds forces is attached before. In a run that goes on they are those of its last step.
+  /// Throws InputError when LIGGGHTS finds the script incomplete.
   void set_up();
   /// Advances by a number of time steps. Throws SolverStopped when LIGGGHTS gives up.
   void run(int steps);
+
+  /// Writes particles, their rows and contacts, and the state of the script's fixes. Collective; the run goes
+  /// on as if nothing had happened.
+  void write_restart(const std::filesystem::path& file);
+  long step() const;  // of LIGGGHTS, the script's own included
 
   ParticleArrays particles() const;
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
@@ -79,7 +90,8 @@ class Dem {
   long inserted() const;           // particles that its insertions have put in so far, all ranks
   long taken_out() const;          // particles that its outlets (fix massflow/mesh) have deleted so far
 
-  /// One value row per particle that goes with it from rank to rank; rows of new particles are 0.
+  /// One value row per particle that goes with it from rank to rank, and from run to run; rows of new
+  /// particles are 0.
   /// Returned pointers: local particle -> row, valid until the next DEM step.
   void add_particle_rows(const std::string& name, int width);
   double* const* particle_rows(const std::string& name) const;
@@ -103,6 +115,7 @@ class Dem {
   std::filesystem::path script_, log_;
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
+  bool continued_;
   int integrated_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
 };
 

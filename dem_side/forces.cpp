@@ -134,6 +134,11 @@ double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
   return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
 }
 
+void FluidForces::go_on_from(double window, int steps) {
+  window_ = window;
+  steps_ = steps;
+}
+
 void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
   const ParticleArrays particles = dem_.particles();
   assert(static_cast<int>(fluid.size()) == particles.count);
@@ -157,6 +162,7 @@ void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double
       carried_by<CarriedGradients>(gradient_rows, i) = {
           volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
   }
+  begun_ = true;
   window_ = window;
   steps_ = 0;
   force_sums_ = {};
@@ -178,7 +184,7 @@ Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradie
 template <bool with_gradients, class Drag>
 void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
   const Vec3 constant = parameters_.constant;
-  if (window_ == 0) {  // Dem::set_up(): the forces before the first step, without fluid
+  if (!begun_) {  // Dem::set_up(): the forces before the first step, without fluid
     for (int i = 0; i < particles.count; ++i)
       store(external[i], dem_.moves(particles.mask[i]) ? constant : Vec3{});
     return;

@@ -93,6 +93,9 @@ class FluidForces {
   /// Throws InputError when that is less than the largest diameter; begin_window() does for later particles.
   void take_out_own_wake(const WakeWidth& width, double largest_diameter);
 
+  /// For a run that goes on: what the particles carry is of a window (s) with so many DEM steps.
+  void go_on_from(double window, int steps);
+
   /// Starts a window with the fluid at each local particle. window: s.
   void begin_window(const std::vector<FluidAtParticle>& fluid, double window);
 
@@ -123,6 +126,7 @@ class FluidForces {
   Dem& dem_;
   ForceParameters parameters_;
   std::optional<WakeWidth> own_wake_width_;
+  bool begun_ = false;         // a window; before it is Dem::set_up()
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/output.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace demvof {
 namespace {
 
@@ -50,24 +47,17 @@ CellValues<BulkFrame> bulk_frame(const BulkGrid& grid, double window,
 
 }  // namespace
 
-Output::Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path& folder, double interval)
+Output::Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path& folder,
+               std::optional<double> continued_from)
     : dem_(dem),
       grid_(grid),
-      interval_(interval),
-      particles_(dem.world(), folder),
-      bulk_(dem.world(), grid, folder) {}
+      particles_(dem.world(), folder, continued_from),
+      bulk_(dem.world(), grid, folder, continued_from) {}
 
-void Output::write(double time, double window, bool last, const FluidForces& forces,
-                   const Averaging& averaging, const CellValues<BulkFluid>& fluid) {
-  const double tolerance = 0.5 * window;
-  const bool due = next_ == 0 || (interval_ > 0 && time > next_ * interval_ - tolerance);
-  if (!due && !last) return;
+void Output::write(double time, double window, const FluidForces& forces, const Averaging& averaging,
+                   const CellValues<BulkFluid>& fluid) {
   particles_.write(time, particle_frame(dem_, forces, window));
   bulk_.write(time, bulk_frame(grid_, window, averaging.deposited(), fluid));
-  if (interval_ > 0)
-    next_ = std::lround(std::floor((time + tolerance) / interval_)) + 1;
-  else
-    next_ = 1;
 }
 
 }  // namespace demvof

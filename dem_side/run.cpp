@@ -13,6 +13,8 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
+#include "coupler/output/output_due.hpp"
+#include "coupler/output/restart_point.hpp"
 #include "dem_side/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
@@ -20,6 +22,7 @@
 #include "dem_side/particle_grid.hpp"
 #include "dem_side/replacement.hpp"
 #include "dem_side/report.hpp"
+#include "dem_side/restart.hpp"
 #include "dem_side/survivor.hpp"
 #include "dem_side/window_steps.hpp"
 
@@ -60,18 +63,28 @@ std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& wo
 int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const CouplingParameters& coupling = parameters.coupling;
-  const fs::path script = fs::absolute(beside_case_file(parameters, particle_parameters(parameters).script));
+  const fs::path script =
+      fs::absolute(beside_case_file(parameters, particle_parameters(parameters).script)).lexically_normal();
   fs::create_directories(options.out);
+  std::optional<RestartPoint> start;
+  if (options.continues) {
+    start = read_restart_point(options.out, parameters);
+    if (world.rank() == 0) keep_earlier(options.out, "particles.log");
+  }
+  const long windows_before = start ? start->window : 0;
   Survivor survivor(options, parameters, world);
 
   run_stage().set("particle script");
-  Dem dem(world.comm(), script.lexically_normal(), options.out / "particles.log");
+  Dem dem(world.comm(), script, options.out / "particles.log",
+          start ? restart_file(options.out, start->window) : fs::path());
   install_signal_handlers();
   const int steps = steps_per_window(coupling.window, dem.time_step());
   FluidForces forces(dem, parameters.forces);
   std::optional<Replacement> replacement;
   if (coupling.phase_interchange == PhaseInterchange::replacement)
     replacement.emplace(dem, coupling.interchange_speed);
+  if (start)
+    forces.go_on_from(coupling.window, steps_of_continued(options.out, start->window, dem, script.string()));
   dem.set_up();
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
@@ -94,19 +107,24 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
 
   run_stage().set("first exchange");
   averaging.set_open_shares(link.receive<double>());
-  averaging.deposit(dem.particles(), forces.contributions());
+  double replaced_volume = 0;  // m3, of this rank
+  const auto deposit = [&] {
+    std::vector<BulkParticles> contributions = forces.contributions();
+    if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
+    averaging.deposit(dem.particles(), contributions);
+  };
+  deposit();
   Report report(dem);
   survivor.start(report.count());
-  Output output(dem, grid, options.out, parameters.output.interval);
-  output.write(0, coupling.window, false, forces, averaging, {});
+  Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
+  if (!start) output.write(0, coupling.window, forces, averaging, {});
   WallSeconds seconds;
   link.send(averaging.deposited());
-  double replaced_volume = 0;  // m3, of this rank
   link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
 
   const long windows = std::lround(coupling.end_time / coupling.window);
   bool go_on = true;
-  for (long n = 1; n <= windows && go_on; ++n) {
+  for (long n = windows_before + 1; n <= windows && go_on; ++n) {
     run_stage().set("exchange with the fluid", static_cast<double>(n - 1) * coupling.window);
     const auto fluid = link.receive<BulkFluid>();  // at the start of this window, whatever the schedule
     std::optional<CellValues<BulkFluidGradients>> gradients;
@@ -126,9 +144,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     run_stage().set("end of the window", time);
     {
       const Stopwatch watch(seconds.averaging);
-      std::vector<BulkParticles> contributions = forces.contributions();
-      if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
-      averaging.deposit(dem.particles(), contributions);
+      deposit();
     }
     link.send(averaging.deposited());
     if (replacement) link.send(replacement->droplets(grid, link.mine()));
@@ -137,8 +153,13 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
     go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
 
-    survivor.window(n, n * steps, report.count(), seconds.dem, seconds.waiting);
-    output.write(time, coupling.window, n == windows || !go_on, forces, averaging, fluid);
+    survivor.window(n - windows_before, (n - windows_before) * steps, report.count(), seconds.dem,
+                    seconds.waiting);
+    if (n < windows && go_on && !output_due(n, coupling.window, parameters.output.interval)) continue;
+    run_stage().set("output", time);
+    output.write(time, coupling.window, forces, averaging, fluid);
+    write_particle_restart(options.out, n, dem, steps);
+    link.swap_text("{}");  // both sides have written
   }
   link.close();
   return go_on ? exit_done : exit_failed;

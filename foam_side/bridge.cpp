@@ -329,6 +329,13 @@ Bridge::Impulses Bridge::impulses() const {
   return {parameters_.coupling.window * to_vec3(explicit_force), to_vec3(implicit_impulse)};
 }
 
+void Bridge::go_on_from(State state) {
+  owned_ = std::move(state.particles);
+  left_over_ = std::move(state.left_over);
+  felt_shift_ = std::move(state.felt_shift);
+  distribute();
+}
+
 CellId Bridge::active_cells() const {
   return Foam::returnReduce(static_cast<label>(owned_.cells.size()), Foam::sumOp<label>());
 }

@@ -85,12 +85,22 @@ class Bridge {
 
   CellId active_cells() const;  // over all ranks
 
- private:
   /// Impulse owed to the particles of a bulk cell, and the drag it came from.
   struct LeftOver {
     Vec3 impulse;            // N s
     double drag_factor = 0;  // sum of w beta, kg/s
   };
+  /// What lives from one window to the next, on the bulk cells owned by this rank.
+  struct State {
+    CellValues<BulkParticles> particles;
+    CellValues<LeftOver> left_over;
+    CellValues<Vec3> felt_shift;
+  };
+  State state() const { return {owned_, left_over_, felt_shift_}; }
+  /// Goes on from the state at the end of a window. After the particles of that time have been taken.
+  void go_on_from(State state);
+
+ private:
   void return_left_over(CellValues<BulkParticles>& particles);
   void distribute();
   scalarField void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const;

@@ -23,6 +23,7 @@
 #include "foam_side/openfoam.hpp"
 #include "foam_side/reconstruct.hpp"
 #include "foam_side/refinement.hpp"
+#include "foam_side/run_time.hpp"
 
 namespace demvof {
 
@@ -74,10 +75,10 @@ struct PressureSystem {
 
 /// The fluid. Built by open_flow; members stand in the order in which they depend on each other.
 struct Flow {
-  Flow(const Foam::argList& args, const Scene& scene);
+  Flow(const Foam::argList& args, const Scene& scene, const Foam::instant* start);
 
   Scene scene;
-  Foam::Time time;
+  RunTime time;
   Foam::autoPtr<Foam::dynamicFvMesh> mesh_owner;
   Foam::dynamicFvMesh& mesh;
   Foam::pimpleControl pimple;
@@ -117,8 +118,10 @@ struct Flow {
 /// what this solver does not do: time schemes other than Euler, MRF zones, fvOptions, moving meshes.
 /// args is only read. (The destructor of an argList ends the process with exit code 0.)
 /// refinement: what write_mesh_dictionary was given; nullptr: the case alone says how its mesh changes.
+/// continued: the time folder of an earlier run, whose flow goes on; nullptr: a flow that starts.
 std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
-                                const RefinementParameters* refinement = nullptr);
+                                const RefinementParameters* refinement = nullptr,
+                                const Foam::instant* continued = nullptr);
 
 /// With fluid.refinement: fine cells around the initial surface, and there the fields that setFields made,
 /// set again, with the pressure that balances them. Before the void fraction; part of open_flow.
@@ -167,7 +170,8 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 
 /// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
 /// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves. Solver of
-/// fvSolution: pcorr with a wanted rate, which the next step makes up for where it is missed; else pcorrFinal.
+/// fvSolution: pcorr with a wanted rate, which the next step makes up for where it is missed; else
+/// pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
 /// The same for any flux of volume.

@@ -45,7 +45,7 @@ FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
   if (forces.viscous_stress) found.stress_force += viscous_force(flow);
   if (forces.capillary && flow.scene.surface_tension) found.stress_force += capillary_force(flow);
 
-  const bool accelerates = forces.added_mass > 0 && flow.clock.steps > 0;
+  const bool accelerates = forces.added_mass > 0 && flow.U.nOldTimes() > 0;
   if (!accelerates && forces.lift == LiftLaw::none) return found;
   const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
   const Foam::tensorField& g = gradient().primitiveField();

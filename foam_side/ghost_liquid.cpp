@@ -6,7 +6,7 @@
 namespace demvof {
 
 GhostLiquid::GhostLiquid(const Foam::fvMesh& mesh)
-    : eps(Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ,
+    : eps(Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::READ_IF_PRESENT,
                          Foam::IOobject::AUTO_WRITE),
           mesh, dimensionedScalar("one", Foam::dimless, 1), Foam::zeroGradientFvPatchScalarField::typeName),
       flux(Foam::IOobject("solidFlux", mesh.time().timeName(), mesh), mesh,

@@ -83,6 +83,12 @@ void refuse_what_is_not_done(const Flow& flow) {
   require_unrelaxed_end(flow.mesh);
 }
 
+void make_continuous(Flow& flow) {
+  const surfaceScalarField anywhere_alike(Foam::IOobject("rAUf", flow.time.timeName(), flow.mesh), flow.mesh,
+                                          dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
+  fit_flux(flow, anywhere_alike, nullptr);
+}
+
 }  // namespace
 
 ParticleSource::ParticleSource(const Foam::fvMesh& mesh)
@@ -95,9 +101,9 @@ ParticleSource::ParticleSource(const Foam::fvMesh& mesh)
       implicit_impulse(Foam::IOobject("particleImpulse", mesh.time().timeName(), mesh), mesh,
                        Foam::dimensionedVector(Foam::dimDensity * Foam::dimVelocity, Foam::Zero)) {}
 
-Flow::Flow(const Foam::argList& args, const Scene& plan)
+Flow::Flow(const Foam::argList& args, const Scene& plan, const Foam::instant* start)
     : scene(plan),
-      time(Foam::Time::controlDictName, args),
+      time(args, start),
       mesh_owner(Foam::dynamicFvMesh::New(
           file(time, time, Foam::dynamicFvMesh::defaultRegion, Foam::IOobject::MUST_READ))),
       mesh(*mesh_owner),
@@ -131,24 +137,23 @@ Flow::Flow(const Foam::argList& args, const Scene& plan)
 }
 
 std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
-                                const RefinementParameters* refinement) {
+                                const RefinementParameters* refinement, const Foam::instant* continued) {
   Foam::FatalError.throwExceptions();
   Foam::FatalIOError.throwExceptions();
-  auto flow = std::make_unique<Flow>(args, scene);
+  auto flow = std::make_unique<Flow>(args, scene, continued);
   refuse_what_is_not_done(*flow);
   if (refinement) {
     flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
-    refine_start(*flow);
+    if (!continued) refine_start(*flow);
   }
-  const surfaceScalarField anywhere_alike(Foam::IOobject("rAUf", flow->time.timeName(), flow->mesh),
-                                          flow->mesh,
-                                          dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
-  fit_flux(*flow, anywhere_alike, nullptr);
+  if (!continued) make_continuous(*flow);
   flow->turbulence->validate();
   if (flow->mesh.dynamic())
-    flow->face_velocity = std::make_unique<surfaceVectorField>("Uf", fvc::interpolate(flow->U));
+    flow->face_velocity = std::make_unique<surfaceVectorField>(
+        file(flow->time, flow->mesh, "Uf", Foam::IOobject::READ_IF_PRESENT), fvc::interpolate(flow->U));
   else if (flow->porosity)
-    flow->velocity_flux = std::make_unique<surfaceScalarField>("velocityFlux", fvc::flux(flow->U));
+    flow->velocity_flux = std::make_unique<surfaceScalarField>(
+        file(flow->time, flow->mesh, "velocityFlux", Foam::IOobject::READ_IF_PRESENT), fvc::flux(flow->U));
   return flow;
 }
 

@@ -11,14 +11,18 @@
 #include "coupler/config/read_case.hpp"
 #include "coupler/config/stopwatch.hpp"
 #include "coupler/link/handshake_items.hpp"
+#include "coupler/link/mpi_check.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
+#include "coupler/output/output_due.hpp"
+#include "coupler/output/restart_point.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
 #include "foam_side/replacement.hpp"
+#include "foam_side/restart.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
 #include "foam_side/step_limits.hpp"
@@ -27,24 +31,8 @@ namespace demvof {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// Everything between two field outputs.
-class FieldOutput {
- public:
-  explicit FieldOutput(double interval) : interval_(interval) {}
-  /// Writes the fields when their time has come; last: in any case.
-  void write(Flow& flow, bool last) {
-    const double time = flow.time.value(), tolerance = 1e-9 * flow.time.deltaTValue();
-    if (!last && (interval_ <= 0 || time < static_cast<double>(next_) * interval_ - tolerance)) return;
-    flow.time.writeNow();
-    while (interval_ > 0 && static_cast<double>(next_) * interval_ <= time + tolerance) ++next_;
-  }
-
- private:
-  double interval_;  // s
-  long next_ = 1;
-};
 
 /// One time step of the fluid; false when there is none left in the window or the run.
 bool step_fluid(Flow& flow, Bridge* bridge) {
@@ -69,23 +57,42 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   return true;
 }
 
-RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid, Link& link,
-                   const OwnWorld& world, RunRecord& record) {
+/// The fields, and the state that the run can be continued from once the particles have written theirs.
+void write_state(const fs::path& run, const CaseParameters& parameters, long window, Flow& flow,
+                 const Bridge& bridge, const RunRecord& record, Link& link, const OwnWorld& world) {
+  run_stage().set("field output", flow.time.value());
+  flow.time.writeNow();
+  write_fluid_restart(run, window, flow, parameters.forces, bridge, record);
+  check_mpi(MPI_Barrier(world.comm()), "MPI_Barrier");
+  link.swap_text("{}");  // both sides have written
+  if (world.rank() == 0)
+    write_restart_point(run, {window, flow.time.value(), flow.time.timeName(), parameters.coupling.window,
+                              parameters.bulk_grid->cells, world.size()});
+}
+
+RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
+                   const RestartPoint* start, const BulkGrid& grid, Link& link, const OwnWorld& world,
+                   RunRecord& record) {
   const double window = parameters.coupling.window, end_time = parameters.coupling.end_time;
-  const long windows = std::lround(end_time / window);
-  FieldOutput fields(parameters.output.interval);
+  const long windows = std::lround(end_time / window), windows_before = start ? start->window : 0;
   FluidSeconds seconds;
 
   run_stage().set("first void fraction");
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
   link.send(bridge.open_shares());
   bridge.take(link.receive<BulkParticles>());
-  if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
-  if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
-  if (pressure_says_nothing(flow)) balance_pressure(flow);
+  const json particles = json::parse(link.swap_text("{}"));
+  if (start) {
+    read_fluid_restart(options.out, start->window, flow, bridge, record, particles);
+  } else {
+    if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
+    if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
+    if (pressure_says_nothing(flow)) balance_pressure(flow);
+    record.start(flow, particles);
+    flow.time.writeNow();
+  }
   flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
-  record.start(flow, json::parse(link.swap_text("{}")));
-  fields.write(flow, true);
+  flow.time.write_when_told();
 
   const bool concurrent = parameters.coupling.schedule == Schedule::concurrent;
   const bool replaces = flow.scene.interchange == PhaseInterchange::replacement;
@@ -102,7 +109,7 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
   };
 
   bool go_on = true;
-  for (long n = 1; n <= windows && go_on; ++n) {
+  for (long n = windows_before + 1; n <= windows && go_on; ++n) {
     run_stage().set("exchange with the particles", flow.time.value());
     {
       const Stopwatch watch(seconds.mapping);
@@ -145,7 +152,8 @@ RunStatus run_pair(Flow& flow, const CaseParameters& parameters, const BulkGrid&
     done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
     done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
     record.window(flow, done, end_time);
-    fields.write(flow, n == windows || !go_on);
+    if (n == windows || !go_on || output_due(n, window, parameters.output.interval))
+      write_state(options.out, parameters, n, flow, bridge, record, link, world);
   }
   return go_on ? RunStatus::completed : RunStatus::interrupted;
 }
@@ -217,6 +225,13 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
+  std::optional<RestartPoint> start;
+  if (options.continues) {
+    if (!paired)
+      throw InputError("--continue: only runs with particles; foam_side alone starts where controlDict says");
+    start = read_restart_point(options.out, parameters);
+    if (world.rank() == 0) keep_earlier(options.out, "fluid.log");
+  }
   send_output_to(options.out / "fluid.log", world.rank());
   const std::optional<RefinementParameters>& refinement = parameters.fluid.refinement;
   if (refinement && world.rank() == 0) write_mesh_dictionary(options.out / "fluid", *refinement);
@@ -241,7 +256,10 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
       plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
 
   run_stage().set("reading the fluid case");
-  const std::unique_ptr<Flow> flow = open_flow(args, scene, refinement ? &*refinement : nullptr);
+  Foam::instant from;
+  if (start) from = {start->time, start->fluid_time};
+  const std::unique_ptr<Flow> flow =
+      open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
   if (paired) require_mesh_fits(*grid, flow->mesh);
   if (scene.interchange == PhaseInterchange::replacement)
@@ -256,7 +274,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
 
   RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
   const RunStatus status =
-      link ? run_pair(*flow, parameters, *grid, *link, world, record) : run_alone(*flow, parameters, record);
+      link ? run_pair(*flow, options, parameters, start ? &*start : nullptr, *grid, *link, world, record)
+           : run_alone(*flow, parameters, record);
   record.finish(*flow, status);
   if (link) link->close();
   return status == RunStatus::completed ? exit_done : exit_failed;

@@ -11,6 +11,7 @@
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/quantities.hpp"
+#include "coupler/output/restart_point.hpp"
 #include "foam_side/fine_mesh.hpp"
 
 namespace demvof {
@@ -104,14 +105,40 @@ void RunRecord::start(const Flow& flow, const json& particles) {
   ledger_.emplace(particles.is_null() ? Vec3{} : vec3(particles.at("momentum")), Vec3{},
                   quantities.at("liquid_volume"));
   initial_potential_ = quantities.at("potential_energy");
-  if (writes_) {
-    std::vector<HistoryColumn> columns;
-    for (const std::string& name : recorded_names(parameters_, flow.scene.particles))
-      columns.push_back({name, std::string(find_quantity(name)->unit)});
-    history_ = std::make_unique<History>(out_ / "history.csv", columns);
-  }
+  open_history(flow, {});
   write_row(flow, particles);
   next_row_ = flow.time.value() + parameters_.output.history_interval;
+}
+
+void RunRecord::open_history(const Flow& flow, std::optional<double> continued_from) {
+  if (!writes_) return;
+  std::vector<HistoryColumn> columns;
+  for (const std::string& name : recorded_names(parameters_, flow.scene.particles))
+    columns.push_back({name, std::string(find_quantity(name)->unit)});
+  history_ = std::make_unique<History>(out_ / "history.csv", columns, continued_from);
+}
+
+void RunRecord::go_on(const Flow& flow, const json& particles, long windows, const json& books) {
+  pending_ = vec3(books.at("pending"));
+  unplaced_ = vec3(books.at("unplaced"));
+  ledger_.emplace(vec3(particles.at("momentum")), Vec3{}, books.at("liquid_volume"), pending_);
+  initial_potential_ = books.at("initial_potential");
+  next_row_ = books.at("next_row");
+  last_row_ = flow.time.value();
+  windows_before_ = windows;
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->results.continued_from = flow.time.value();
+  if (writes_) keep_earlier(out_, "results.json");
+  open_history(flow, flow.time.value());
+}
+
+json RunRecord::books() const {
+  const auto array = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
+  return {{"pending", array(pending_)},
+          {"unplaced", array(unplaced_)},
+          {"liquid_volume", ledger_->liquid_volume()},
+          {"initial_potential", initial_potential_},
+          {"next_row", next_row_}};
 }
 
 /// Enters a window into the ledger. Momentum is that of the particles: drag, left-over, pressure,
@@ -174,7 +201,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
   {
     const std::lock_guard<std::mutex> lock(shared_->mutex);
     RunResults& results = shared_->results;
-    results.steps.windows = window.number;
+    results.steps.windows = window.number - windows_before_;
     results.steps.fluid = flow.clock.steps;
     results.cells.fine_max = std::max(results.cells.fine_max, cells);
     results.cells.fine_min = results.cells.fine_min ? std::min(results.cells.fine_min, cells) : cells;

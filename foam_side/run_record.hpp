@@ -43,6 +43,11 @@ class RunRecord {
   /// The state before the first step. particles: dem_side's report of it; null without particles.
   void start(const Flow& flow, const nlohmann::json& particles);
 
+  /// The same for a run that goes on. windows: done before; books: of an earlier RunRecord at that time.
+  /// Moves what that has written about the whole run to the folder `earlier`.
+  void go_on(const Flow& flow, const nlohmann::json& particles, long windows, const nlohmann::json& books);
+  nlohmann::json books() const;
+
   /// One window (with particles) or time step (without).
   struct Window {
     long number = 0, planned = 0;                 // planned 0: not known
@@ -62,6 +67,7 @@ class RunRecord {
 
  private:
   struct Shared;  // results as the last words need them, whichever thread speaks them
+  void open_history(const Flow& flow, std::optional<double> continued_from);
   void close_books(const Window& window, double liquid_volume);
   Quantities all_quantities(const Flow& flow, const nlohmann::json& particles) const;
   void write_row(const Flow& flow, const nlohmann::json& particles);
@@ -74,6 +80,7 @@ class RunRecord {
   std::unique_ptr<History> history_;
   ProgressFile progress_;
   std::optional<Ledger> ledger_;
+  long windows_before_ = 0;       // of the run that this one continues
   double initial_potential_ = 0;  // J
   double replaced_liquid_ = 0;    // in place of particles, at the end of the last window, m3
   Vec3 pending_;                  // received by one side, not yet by the other, N s

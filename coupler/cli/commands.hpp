@@ -16,6 +16,7 @@ struct CaseOptions {
 
 struct RunOptions {
   std::string fluid_ranks, particle_ranks;  // empty: as the case file says
+  bool continues = false;                   // an earlier run in the folder, from its last state
   bool print_command = false, quiet = false;
 };
 

@@ -113,6 +113,8 @@ class CommandLine {
         ->add_option("--particle-ranks", run_.particle_ranks,
                      "MPI ranks of dem_side; default: particles.ranks")
         ->type_name("N");
+    command->add_flag("--continue", run_.continues,
+                      "Go on with the run in DIR, from the last state that it has left there");
     command->add_flag("--print-command", run_.print_command, "Print how the programs are started, and stop");
     command->add_flag("--quiet", run_.quiet, "Print errors only");
   }

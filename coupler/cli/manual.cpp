@@ -97,8 +97,13 @@ const char* const run_manual = R"(DESCRIPTION
     Ctrl-C (or SIGTERM) stops the run at the end of the window, with everything written; a second one
     ends it at once.
 
+    A run that stopped, or has reached its end, can be continued: with --continue it goes on from the last
+    state in DIR/restart, which is written with each field output (output.interval) and at the end. Settings
+    may change, coupling.end_time for one; the fluid case, its ranks, bulk_grid and coupling.window may not.
+    The particle script has to allow it (docs/howto_your_own_case.md).
+
 FILES
-    DIR/results.json    everything about the run
+    DIR/results.json    everything about the run; DIR/earlier has those of the parts that were continued
     DIR/history.csv     recorded quantities against time
     DIR/fluid           OpenFOAM time folders
     DIR/particles, DIR/bulk   series for ParaView
@@ -114,6 +119,7 @@ EXAMPLES
     demvof run case.yaml
     demvof run case.yaml --fluid-ranks 2 --set coupling.window=1e-4 --out runs/small_window
     demvof run case.yaml --print-command
+    demvof run case.yaml --continue --set coupling.end_time=2
 )";
 
 const char* const report_manual = R"(DESCRIPTION

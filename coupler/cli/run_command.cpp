@@ -11,8 +11,10 @@
 namespace demvof {
 namespace {
 
-std::vector<std::string> program_arguments(const CaseOptions& options, const RunFolder& folder) {
+std::vector<std::string> program_arguments(const CaseOptions& options, bool continues,
+                                           const RunFolder& folder) {
   std::vector<std::string> arguments = {"--out", folder.path().string()};
+  if (continues) arguments.push_back("--continue");
   for (const std::string& assignment : options.overrides)
     arguments.insert(arguments.end(), {"--set", assignment});
   return arguments;
@@ -39,15 +41,19 @@ void print_end(int code, const nlohmann::ordered_json& results, const RunFolder&
 int run_command(CaseOptions options, const RunOptions& run) {
   if (!run.fluid_ranks.empty()) options.overrides.push_back("fluid.ranks=" + run.fluid_ranks);
   if (!run.particle_ranks.empty()) options.overrides.push_back("particles.ranks=" + run.particle_ranks);
+  if (run.continues && options.force)
+    throw InputError("demvof run: --continue keeps what is in the folder, --force replaces it; give one");
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const RunFolder folder(parameters, options.out);
-  const LaunchCommand command = launch_command(parameters, program_arguments(options, folder));
+  const LaunchCommand command = launch_command(parameters, program_arguments(options, run.continues, folder));
   if (run.print_command) {
     fmt::print("{}\n", shell_line(command));
     return 0;
   }
 
-  if (!folder.ready())
+  if (run.continues)
+    folder.require_continuable();
+  else if (!folder.ready())
     prepare_case(parameters, folder, options.force, [&](const std::string& what) {
       if (!run.quiet) fmt::print("{}\n", what);
     });

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "coupler/config/read_case.hpp"
+#include "coupler/output/restart_point.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {
@@ -18,9 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr auto marker = "prepared.json";  // written last by a preparation
 // Everything that prepare, run and report write, and nothing else is ever removed.
-constexpr const char* outputs[] = {"fluid",        "particles",     "bulk",          "fluid.log",
-                                   "prepare.log",  marker,          "particles.log", "history.csv",
-                                   "results.json", "progress.json", "report.html",   "results.csv"};
+constexpr const char* outputs[] = {
+    "fluid",       "particles",    "bulk",          "fluid.log",   "prepare.log", marker,    "particles.log",
+    "history.csv", "results.json", "progress.json", "report.html", "results.csv", "restart", "earlier"};
 constexpr const char* result_files[] = {"results.json", "history.csv", "progress.json"};
 
 std::string read_text(const fs::path& path) {
@@ -67,6 +68,15 @@ bool RunFolder::ready() const {
   return fs::exists(mark) && !has_results() && read_text(mark) == preparation() &&
          last_change(beside_case_file(parameters_, parameters_.fluid.case_folder)) <=
              fs::last_write_time(mark);
+}
+
+void RunFolder::require_continuable() const {
+  read_restart_point(path_, parameters_);
+  if (read_text(path_ / marker) != preparation())
+    throw InputError(
+        fmt::format("--continue: the run in {} is of another fluid case (fluid.case, fluid.ranks or "
+                    "fluid.prepare differ); start a new run with another --out",
+                    path_.string()));
 }
 
 void RunFolder::clear(bool force) const {

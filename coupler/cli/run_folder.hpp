@@ -21,6 +21,9 @@ class RunFolder {
   /// Holds the prepared fluid case of these parameters, made after the last change of the original,
   /// and nothing of a run.
   bool ready() const;
+  /// Throws InputError unless the run in the folder can go on with these parameters: it is that of the same
+  /// fluid case, and has left a state that fits.
+  void require_continuable() const;
   /// Makes the folder, or empties it of an earlier run. Throws InputError rather than lose data: when
   /// it holds something else, when it is where the case itself lives, or when it holds results or another
   /// preparation and force is false.

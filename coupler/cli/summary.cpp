@@ -48,6 +48,9 @@ std::string run_summary(const Json& r) {
   };
   const std::string status = r.value("status", "unknown");
   row("status", status);
+  if (r.contains("continued_from"))
+    row("continued from",
+        fmt::format("t = {:.6g} s; what follows is of the part since then", number(r, "/continued_from")));
   if (status != "completed" && whole(r, "/steps/windows") == 0) return text;  // nothing else to tell
 
   row("wall time", wall_times(r));

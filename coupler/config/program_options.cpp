@@ -34,6 +34,8 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
   app.add_option("--out", options.out, "folder of the run; default: run, beside the case file");
   app.add_option("--set", options.overrides, "key=value: replaces one entry of the case file; repeatable")
       ->allow_extra_args(false);
+  app.add_flag("--continue", options.continues,
+               "go on from the last state that the run in the folder has left");
   app.add_flag("--check", options.check, "open both sides, compare them, and stop before the first step");
   try {
     app.parse(argc, argv);

@@ -12,6 +12,7 @@ struct ProgramOptions {
   std::string case_file;
   std::filesystem::path out;           // folder of the run; default: run beside the case file
   std::vector<std::string> overrides;  // --set key=value
+  bool continues = false;              // from the latest state that a run has left in out
   bool check = false;                  // everything up to the handshake, no step
   std::string command;                 // as typed
 };

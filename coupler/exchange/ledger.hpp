@@ -57,9 +57,11 @@ struct ConservationErrors {
 
 class Ledger {
  public:
-  /// State at the start; nothing is pending yet.
-  Ledger(const Vec3& particle_momentum, const Vec3& fluid_momentum, double liquid_volume)
-      : start_momentum_(particle_momentum + fluid_momentum),
+  /// State at the start. pending: of a run that is continued, N s.
+  Ledger(const Vec3& particle_momentum, const Vec3& fluid_momentum, double liquid_volume,
+         const Vec3& pending = {})
+      : start_momentum_(particle_momentum + fluid_momentum + pending),
+        pending_(pending),
         momentum_scale_(norm(particle_momentum) + norm(fluid_momentum)),
         liquid_(liquid_volume) {}
 
@@ -97,6 +99,9 @@ class Ledger {
     worst_.liquid_volume = std::max(worst_.liquid_volume, errors.liquid_volume);
     return errors;
   }
+
+  /// What liquid there should be, m3.
+  double liquid_volume() const { return liquid_; }
 
   /// Largest of each error over the windows entered.
   const ConservationErrors& worst() const { return worst_; }

@@ -7,22 +7,42 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
-namespace demvof {
+#include "coupler/output/write_file.hpp"
 
-History::History(std::filesystem::path path, std::vector<HistoryColumn> columns)
+namespace demvof {
+namespace {
+
+/// The rows of an earlier run up to a time, with its head.
+std::string rows_until(const std::filesystem::path& path, const std::string& head, double last) {
+  std::ifstream lines(path);
+  std::string line, text;
+  for (int row = 0; std::getline(lines, line); ++row)
+    if (row < 2 || std::stod(line) <= last * (1 + 1e-9)) text += line + "\n";
+  if (text.rfind(head, 0) != 0)
+    throw std::runtime_error(fmt::format(
+        "{} has other columns than this run writes: leave output.history as it was", path.string()));
+  return text;
+}
+
+}  // namespace
+
+History::History(std::filesystem::path path, std::vector<HistoryColumn> columns,
+                 std::optional<double> continued_from)
     : path_(std::move(path)), columns_(std::move(columns)) {
-  file_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw std::runtime_error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
   std::string names = "time", units = "# s";
   for (const HistoryColumn& column : columns_) {
     names += "," + column.name;
     units += "," + column.unit;
   }
-  write_line(names + "\n" + units + "\n");
+  const std::string head = names + "\n" + units + "\n";
+  write_file_atomically(path_, continued_from ? rows_until(path_, head, *continued_from) : head);
+  file_ = open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file_ < 0)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
 }
 
 History::~History() {

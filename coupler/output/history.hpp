@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct HistoryColumn {
 class History {
  public:
   /// Starts a new file; the column "time" (s) comes first by itself.
-  /// Throws std::runtime_error when the file cannot be written.
-  History(std::filesystem::path path, std::vector<HistoryColumn> columns);
+  /// continued_from: time from which an earlier run is continued, s; its rows up to then stay.
+  /// Throws std::runtime_error when the file cannot be written, or the earlier one has other columns.
+  History(std::filesystem::path path, std::vector<HistoryColumn> columns,
+          std::optional<double> continued_from = {});
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;

@@ -53,6 +53,7 @@ std::string results_json(const RunResults& r) {
   json["configuration_hash"] = r.configuration_hash;
   json["configuration"] = configuration(r.configuration);
   json["command"] = r.command;
+  if (r.continued_from) json["continued_from"] = *r.continued_from;
   const MachineFacts machine = machine_facts();
   json["machine"] = {{"cpu", machine.cpu}, {"cores", machine.cores}};
   json["ranks"] = {{"fluid", r.ranks.fluid}, {"particles", r.ranks.particles}};

@@ -30,6 +30,7 @@ struct RunResults {
   std::string configuration_hash;
   std::string configuration;  // JSON text, as resolved_configuration() gives it
   std::string command;
+  std::optional<double> continued_from;  // s: everything below is of the part of the run since then
 
   struct {
     int fluid = 1, particles = 0;

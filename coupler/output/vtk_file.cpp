@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+
 #include "coupler/output/vtk_series.hpp"
 
 namespace fs = std::filesystem;
@@ -11,13 +15,19 @@ namespace demvof {
 
 namespace vtk_file {
 
-void prepare_folder(MPI_Comm world, const fs::path& folder, const std::string& series) {
+int prepare_folder(MPI_Comm world, const fs::path& folder, const std::string& series, int kept) {
   on_all_ranks(world, folder, [&] {
     if (rank_of(world) != 0) return;
     fs::create_directories(folder);
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (entry.path().filename().string().rfind(series + "_", 0) == 0) fs::remove(entry.path());
+    const std::string begin = series + "_";
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const std::string file = entry.path().filename().string();
+      if (file.rfind(begin, 0) != 0) continue;
+      if (std::atoi(file.c_str() + begin.size()) >= kept) fs::remove(entry.path());
+    }
   });
+  MPI_Bcast(&kept, 1, MPI_INT, 0, world);
+  return kept;
 }
 
 vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<double>& values) {
@@ -39,6 +49,17 @@ vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>&
 }
 
 }  // namespace vtk_file
+
+PvdIndex::PvdIndex(fs::path path, std::optional<double> continued_from) : path_(std::move(path)) {
+  if (!continued_from) return;
+  const double last = *continued_from * (1 + 1e-9);
+  static const std::regex entry("timestep=\"([^\"]+)\" file=\"([^\"]+)\"");
+  std::ifstream lines(path_);
+  std::smatch found;
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_search(line, found, entry) && std::stod(found[1]) <= last)
+      entries_.emplace_back(std::stod(found[1]), found[2]);
+}
 
 void PvdIndex::add(double time, const std::string& file) {
   entries_.emplace_back(time, file);

@@ -45,8 +45,9 @@ void on_all_ranks(MPI_Comm world, const std::filesystem::path& what, Action acti
   if (any) throw std::runtime_error(error.empty() ? what.string() + ": failed on another rank" : error);
 }
 
-/// Makes the folder of a series on rank 0, free of an earlier run's files. Collective.
-void prepare_folder(MPI_Comm world, const std::filesystem::path& folder, const std::string& series);
+/// Makes the folder of a series on rank 0, free of an earlier run's files but for its first frames.
+/// Collective; kept: how many frames stay, on rank 0; returned on all ranks.
+int prepare_folder(MPI_Comm world, const std::filesystem::path& folder, const std::string& series, int kept);
 
 vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<double>& values);
 vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>& values);

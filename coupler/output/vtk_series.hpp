@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,13 +17,18 @@
 // Time series that ParaView opens: <folder>/<name>/<name>_<number>.vtp or .vti, and
 // <name>.pvd beside them, which lists them with their times and is replaced in one step at each
 // output, so that it is valid at any moment of a run.
+//
+// continued_from: time from which an earlier run is continued, s; its frames up to then stay. Without it
+// what an earlier run left in the series' folder is removed.
 
 namespace demvof {
 
 /// The .pvd file of a series.
 class PvdIndex {
  public:
-  explicit PvdIndex(std::filesystem::path path) : path_(std::move(path)) {}
+  /// continued_from: entries of the file that is there are kept up to this time.
+  explicit PvdIndex(std::filesystem::path path, std::optional<double> continued_from = {});
+  int size() const { return static_cast<int>(entries_.size()); }
   /// file: relative to the index. Throws std::runtime_error when the index cannot be written.
   void add(double time, const std::string& file);
 
@@ -45,8 +51,9 @@ struct ParticleFrame {
 /// particles/: one .vtp piece per rank, with a .pvtp over the pieces when there are several.
 class ParticleSeries {
  public:
-  /// Collective over world. Removes what an earlier run left in the series' folder.
-  ParticleSeries(MPI_Comm world, const std::filesystem::path& folder, const std::string& name = "particles");
+  /// Collective over world.
+  ParticleSeries(MPI_Comm world, const std::filesystem::path& folder,
+                 std::optional<double> continued_from = {}, const std::string& name = "particles");
   /// Collective. Throws std::runtime_error on all ranks when members differ in length or a file
   /// cannot be written on any.
   void write(double time, const ParticleFrame& frame);
@@ -55,8 +62,8 @@ class ParticleSeries {
   MPI_Comm world_;
   std::filesystem::path folder_;
   std::string name_;
-  int count_ = 0;
   PvdIndex index_;
+  int count_ = 0;
 };
 
 /// What is shown of one bulk cell.
@@ -71,9 +78,9 @@ struct BulkFrame {
 /// active = 0 and carry the defaults of BulkFrame.
 class BulkSeries {
  public:
-  /// Collective over world. Removes what an earlier run left in the series' folder.
+  /// Collective over world.
   BulkSeries(MPI_Comm world, BulkGrid grid, const std::filesystem::path& folder,
-             const std::string& name = "bulk");
+             std::optional<double> continued_from = {}, const std::string& name = "bulk");
   /// Collective; active: the averaged cells that this rank owns. Rank 0 gathers and writes.
   /// Throws std::runtime_error on all ranks when the file cannot be written.
   void write(double time, const CellValues<BulkFrame>& active);
@@ -83,8 +90,8 @@ class BulkSeries {
   BulkGrid grid_;
   std::filesystem::path folder_;
   std::string name_;
-  int count_ = 0;
   PvdIndex index_;
+  int count_ = 0;
 };
 
 }  // namespace demvof

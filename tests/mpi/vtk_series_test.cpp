@@ -136,6 +136,24 @@ TEST(ParticleSeries, AnEarlierRunLeavesNothing) {
   EXPECT_EQ(files, ranks_ == 1 ? 2 : ranks_ + 2);  // pieces, the file over them, the index
 }
 
+TEST(ParticleSeries, ARunThatGoesOnKeepsItsFramesUpToThen) {
+  const fs::path out = folder("particles_continued");
+  {
+    ParticleSeries series(MPI_COMM_WORLD, out);
+    for (int n = 0; n < 5; ++n) series.write(0.1 * n, frame_of_this_rank());
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  ParticleSeries series(MPI_COMM_WORLD, out, 0.1 * 2);
+  series.write(0.25, frame_of_this_rank());
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string index = text_of(out / "particles" / "particles.pvd");
+  EXPECT_NE(index.find("timestep=\"0.2\" file=\"particles_000002"), std::string::npos) << index;
+  EXPECT_NE(index.find("timestep=\"0.25\" file=\"particles_000003"), std::string::npos) << index;
+  EXPECT_EQ(index.find("particles_000004"), std::string::npos) << index;
+  const auto files = std::distance(fs::directory_iterator(out / "particles"), fs::directory_iterator());
+  EXPECT_EQ(files, 1 + 4 * (ranks_ == 1 ? 1 : ranks_ + 1));
+}
+
 TEST(ParticleSeries, AFrameThatIsOutOfStepIsAnErrorOnAllRanks) {
   ParticleSeries series(MPI_COMM_WORLD, folder("particles_broken"));
   ParticleFrame frame = frame_of_this_rank();

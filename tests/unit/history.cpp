@@ -57,6 +57,21 @@ TEST(History, ValuesReadBackExactly) {
   }
 }
 
+TEST(History, GoesOnAfterTheRowsUpToATime) {
+  {
+    History history(path, {{"q", "m"}});
+    for (int row = 0; row < 5; ++row) history.append(0.1 * row, {1.0 * row});
+  }
+  {
+    History history(path, {{"q", "m"}}, 0.1 * 3);
+    history.append(0.35, {7});
+  }
+  EXPECT_EQ(lines(), (std::vector<std::string>{"time,q", "# s,m", "0,0", "0.1,1", "0.2,2",
+                                               "0.30000000000000004,3", "0.35,7"}));
+  EXPECT_THROW(History(path, {{"another", "m"}}, 0.3), std::runtime_error);
+  EXPECT_EQ(lines().size(), 7u) << "what is there stays";
+}
+
 TEST(History, RefusesARowOfAnotherLength) {
   History history(path, {{"mean_level", "m"}});
   EXPECT_THROW(history.append(0, {}), std::invalid_argument);

@@ -37,6 +37,8 @@ def summary(run):
     cells = [number("cells.fine_min"), number("cells.fine_max")]
     fine = amount(cells[0]) if cells[0] == cells[1] else f"{amount(cells[0])} to {amount(cells[1])}"
     machine = run.results.get("machine") or {}
+    if number("continued_from"):
+        rows.append(("continued from", f"{amount(number('continued_from'), 's')}; what follows is since then"))
     rows += [
         ("wall time", duration(number("wall_seconds.total"))),
         ("fine cells", fine),

@@ -269,7 +269,8 @@ atom_modify map array
 boundary {' '.join('p' if p else 'f' for p in periodic)}
 newton off
 communicate single vel yes
-read_data particles.data
+variable continued index 0
+if "${{continued}} == 1" then "read_restart ${{restart_file}}" else "read_data particles.data"
 neighbor {0.2 * largest:.17g} bin
 neigh_modify delay 0
 """ + (same("kn", k) + same("kt", 0.2857 * k) + same("gamman", 500) + same("gammat", 250)

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/restart.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/mpi_check.hpp"
+#include "coupler/output/restart_point.hpp"
+#include "coupler/output/write_file.hpp"
+
+namespace demvof {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path facts_file(const fs::path& run, long window) {
+  return restart_folder(run, window) / "particles.json";
+}
+
+}  // namespace
+
+fs::path restart_file(const fs::path& run, long window) {
+  return restart_folder(run, window) / "particles";
+}
+
+void write_particle_restart(const fs::path& run, long window, Dem& dem, int steps) {
+  const long count = dem.census().count;
+  int rank;
+  check_mpi(MPI_Comm_rank(dem.world(), &rank), "MPI_Comm_rank");
+  if (rank == 0) {
+    fs::create_directories(restart_folder(run, window));
+    const nlohmann::json facts = {{"step", dem.step()}, {"particles", count}, {"steps_per_window", steps}};
+    write_file_atomically(facts_file(run, window), facts.dump() + "\n");
+  }
+  dem.write_restart(restart_file(run, window));
+}
+
+int steps_of_continued(const fs::path& run, long window, const Dem& dem, const std::string& script) {
+  std::ifstream stream(facts_file(run, window));
+  const auto facts = nlohmann::json::parse(stream, nullptr, false);
+  if (!facts.is_object())
+    throw InputError(
+        fmt::format("--continue: {} is not what dem_side has written", facts_file(run, window).string()));
+  const long step = facts.at("step"), count = facts.at("particles");
+  if (dem.step() != step || dem.census().count != count)
+    throw InputError(fmt::format(
+        "--continue: {} ends with {} particles at step {}, the run to go on with had {} at step {}. Where "
+        "the "
+        "variable ${{continued}} is 1 the script has to read ${{restart_file}} in place of making a box and "
+        "particles (docs/howto_your_own_case.md)",
+        script, dem.census().count, dem.step(), count, step));
+  return facts.at("steps_per_window");
+}
+
+}  // namespace demvof

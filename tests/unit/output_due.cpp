@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/output/output_due.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace demvof {
+namespace {
+
+std::vector<long> due(double window, double interval, long windows) {
+  std::vector<long> numbers;
+  for (long n = 1; n <= windows; ++n)
+    if (output_due(n, window, interval)) numbers.push_back(n);
+  return numbers;
+}
+
+TEST(OutputDue, AtEveryMultiple) {
+  EXPECT_EQ(due(5e-4, 2e-3, 12), (std::vector<long>{4, 8, 12}));
+  EXPECT_EQ(due(1e-4, 0.05, 5000).size(), 10u);  // 0.05 is no whole number of 1e-4 in binary
+}
+
+TEST(OutputDue, AtTheFirstWindowThatReachesIt) {
+  EXPECT_EQ(due(1, 1.5, 6), (std::vector<long>{2, 3, 5, 6}));
+}
+
+TEST(OutputDue, AtEveryWindowWhenTheIntervalIsShorter) {
+  EXPECT_EQ(due(1, 0.3, 3), (std::vector<long>{1, 2, 3}));
+}
+
+TEST(OutputDue, NeverWithoutAnInterval) {
+  EXPECT_TRUE(due(1, 0, 10).empty());
+}
+
+}  // namespace
+}  // namespace demvof

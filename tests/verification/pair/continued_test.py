@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run that stopped and goes on is the run that did not stop: continued_test.py DEMVOF FOLDER [--long]
+
+Water sloshes in a slanted field of gravity and twelve beads fall through its surface.
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import unittest
+
+from box_case import BoxCase, Open, Particle, Wall, SIDES
+from pair import Pair
+from reporting.run import Run
+
+BOUND = 2e-7  # of a quantity's largest value; the pressure solver stops at 1e-10
+DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
+
+
+class Continued(unittest.TestCase):
+    def case(self, fine=(8, 4, 8), **keys):
+        beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
+                          velocity=(0, 0, -0.3)) for i in range(12)]
+        case = BoxCase(FOLDER / self._testMethodName, (0.04, 0.02, 0.04), fine, (8, 4, 8), 0.03, window=1e-3,
+                       level=0.0174, gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
+                       sides={side: Open() if side == "z+" else Wall() for side in SIDES}, output_interval=5e-3, **keys)
+        self.case_file = case.write()
+
+    def run_case(self, name, *options):
+        """Exit code and what was printed."""
+        out = FOLDER / self._testMethodName / name
+        force = [] if "--continue" in options else ["--force"]
+        done = subprocess.run([DEMVOF, "run", str(self.case_file), "--out", str(out), *force, *options], text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False)
+        return done.returncode, done.stdout, out
+
+    def run_to(self, name, end_time, *options):
+        code, text, out = self.run_case(name, "--set", f"coupling.end_time={end_time}", *options)
+        self.assertEqual(code, 0, text)
+        return out
+
+    def compare(self, whole, parts, bound=BOUND):
+        """Every row of history.csv, and what ParaView finds."""
+        a, b = Run(whole), Run(parts)
+        self.assertEqual(list(a.times), list(b.times))
+        worst = {}
+        for name, values in a.history.items():
+            if name.startswith("max_speed_") or name == "time":
+                continue  # a place may change from one cell to another of the same speed
+            scale = max(abs(v) for v in values) or 1
+            worst[name] = max(abs(v - w) for v, w in zip(values, b.history[name])) / scale
+        name = max(worst, key=worst.get)
+        print(f"{self._testMethodName}: largest difference {worst[name]:.1e}, of {name}")
+        self.assertLess(worst[name], bound)
+        for series in ("particles/particles.pvd", "bulk/bulk.pvd"):
+            self.assertEqual((whole / series).read_text(), (parts / series).read_text())
+        times = [sorted(f.name for f in (out / "fluid").iterdir() if f.name[0].isdigit()) for out in (whole, parts)]
+        self.assertEqual(*times)
+
+    def check_same(self, *options, bound=BOUND):
+        whole = self.run_to("whole", 0.03, *options)
+        parts = self.run_to("parts", 0.015, *options)
+        self.run_to("parts", 0.03, "--continue", *options)
+        results = json.loads((parts / "results.json").read_text())
+        self.assertEqual(results["continued_from"], 0.015)
+        self.assertEqual(results["steps"]["windows"], 15)
+        for quantity, error in results["conservation"].items():
+            self.assertLess(error, 1e-11, quantity)
+        self.assertEqual(json.loads((parts / "earlier" / "results_1.json").read_text())["steps"]["windows"], 15)
+        self.compare(whole, parts, bound)
+
+    def test_refining_mesh(self):
+        self.case(sections={"fluid": {"refinement": {"levels": 2}}})
+        self.check_same()
+
+    def test_four_ranks(self):
+        self.case()
+        self.check_same("--fluid-ranks", "2", "--particle-ranks", "2")
+
+    def test_concurrent(self):
+        self.case()
+        self.check_same("--set", "coupling.schedule=concurrent")
+
+    def test_volume_adding(self):
+        self.case()
+        self.check_same("--set", "coupling.phase_interchange=volume_adding")
+
+    @unittest.skipUnless("--long" in sys.argv, "a minute: with --long")
+    def test_replacement(self):
+        self.case(fine=(32, 16, 32), sections={"fluid": {"refinement": {"levels": 1, "particles": True}}})
+        self.check_same("--set", "coupling.phase_interchange=replacement", bound=1e-5)
+
+    def test_without_porosity(self):
+        self.case()
+        self.check_same("--set", "scene.porosity=off")
+
+    def test_added_mass_and_other_kernel(self):
+        self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", "viscous_stress", {"added_mass": 0.5}])
+        self.check_same("--set", "coupling.averaging.kernel=linear")
+
+    def test_after_a_kill(self):
+        self.case(fine=(40, 20, 40))
+        whole = self.run_to("whole", 0.03)
+        pair = Pair(DEMVOF, self.case_file, FOLDER / self._testMethodName / "parts")
+        pair.wait_for_window(12)
+        for number in pair.pids("foam_side") + pair.pids("dem_side"):
+            os.kill(number, signal.SIGKILL)
+        pair.wait(60)
+        parts = self.run_to("parts", 0.03, "--continue")
+        self.compare(whole, parts)
+
+    def check_refused(self, part, message, *options):
+        code, text, _ = self.run_case("parts", "--continue", *options)
+        self.assertEqual(code, 2, text)
+        self.assertIn(message, text)
+        self.assertTrue((part / "results.json").exists(), "what was there is there")
+
+    def test_refusals(self):
+        self.case()
+        code, text, _ = self.run_case("nothing", "--continue")
+        self.assertEqual(code, 2, text)
+        self.assertIn("latest.json; a run of a pair leaves one", text)
+        part = self.run_to("parts", 0.01)
+        self.check_refused(part, "coupling.window was 0.001 s", "--set", "coupling.window=5e-4")
+        self.check_refused(part, "bulk_grid.cells was [8, 4, 8]", "--set", "bulk_grid.cells=[4,4,8]")
+        self.check_refused(part, "fluid.ranks was 1", "--fluid-ranks", "2")
+        self.check_refused(part, "is at 0.01 s already", "--set", "coupling.end_time=0.01")
+        self.check_refused(part, "is of another fluid case", "--set", "fluid.prepare=[blockMesh]")
+        self.check_refused(part, "give one", "--force")
+        script = self.case_file.parent / "particles" / "in.particles"
+        script.write_text(script.read_text().replace("${continued} == 1", "${continued} == 2"))
+        self.check_refused(part, "has to read ${restart_file}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + [word for word in sys.argv[3:] if word != "--long"])
