@@ -71,6 +71,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
 
   const nlohmann::ordered_json results = read_results(folder.path());
   const int code = confirmed(launched, results);
+  if (run.continues && code == 2) return code;  // the results there are those of the run as it was
   if (!run.quiet || code != 0) print_end(code, results, folder, said_something);
   return code;
 }
