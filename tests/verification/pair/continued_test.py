@@ -101,16 +101,28 @@ class Continued(unittest.TestCase):
         self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", "viscous_stress", {"added_mass": 0.5}])
         self.check_same("--set", "coupling.averaging.kernel=linear")
 
-    def test_after_a_kill(self):
+    def check_stopped(self, stop):
+        """stop: what to do to the run; returns what it ended with."""
         self.case(fine=(40, 20, 40))
-        whole = self.run_to("whole", 0.03)
         pair = Pair(DEMVOF, self.case_file, FOLDER / self._testMethodName / "parts")
         pair.wait_for_window(12)
-        for number in pair.pids("foam_side") + pair.pids("dem_side"):
-            os.kill(number, signal.SIGKILL)
-        pair.wait(60)
+        stop(pair)
+        code, text = pair.wait(60)
+        self.assertNotEqual(code, 0, text)
         parts = self.run_to("parts", 0.03, "--continue")
-        self.compare(whole, parts)
+        return self.run_to("whole", 0.03), parts
+
+    def test_after_a_kill(self):
+        def kill(pair):
+            for number in pair.pids("foam_side") + pair.pids("dem_side"):
+                os.kill(number, signal.SIGKILL)
+        self.compare(*self.check_stopped(kill))
+
+    def test_after_control_c(self):
+        whole, parts = self.check_stopped(lambda pair: os.kill(pair.process.pid, signal.SIGINT))
+        extra = [f for f in (parts / "fluid").iterdir() if not (whole / "fluid" / f.name).exists()]
+        self.assertEqual(len(extra), 1, "the window in which it was stopped is an output more")
+        self.assertEqual((whole / "history.csv").read_text(), (parts / "history.csv").read_text())
 
     def check_refused(self, part, message, *options):
         code, text, _ = self.run_case("parts", "--continue", *options)
