@@ -2,6 +2,8 @@
 """What a study found: as text, as study.json, as study.html."""
 import json
 
+from matplotlib import ticker
+
 from reporting import tables
 from reporting.figures import COLOURS, SIZE, pyplot
 from reporting.page import STYLE, escape, image, section, table
@@ -48,9 +50,18 @@ def error_against_time(rows, quantity):
                    if row["name"] in pareto(rows, quantity))
     axes.plot([t for t, _ in front], [e for _, e in front], "-", color="#8a949e", linewidth=1, zorder=0,
               label="not beaten in both")
-    axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="relative error [-]")
+    axes.set(xscale="log", yscale="log", xlabel="wall time [s]", ylabel="relative error [%]")
+    label_log_axis(axes.xaxis, lambda seconds, _: f"{seconds:g}")
+    label_log_axis(axes.yaxis, lambda error, _: f"{100 * error:g}")
     axes.legend()
     return figure
+
+
+def label_log_axis(axis, text):
+    """Numbers at 1, 2 and 5 of every decade: runs often differ by less than one."""
+    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(text)
+    axis.set_minor_formatter(ticker.NullFormatter())
 
 
 def cost(rows):
