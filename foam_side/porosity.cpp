@@ -113,7 +113,8 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
 
-  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for alpha.
+  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
+  // alpha.
   const Foam::dictionary& solver = flow.mesh.solver(potential.select(wanted_rate == nullptr));
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));

@@ -18,6 +18,7 @@
 #include "coupler/link/handshake_items.hpp"
 #include "coupler/link/main_guard.hpp"
 #include "coupler/output/machine.hpp"
+#include "coupler/output/output_due.hpp"
 
 namespace {
 
@@ -123,6 +124,8 @@ int play(const Options& options, OwnWorld& world) {
     particles = link.receive<BulkParticles>();
     report = json::parse(link.swap_text("{}"));
     go_on = link.agree_to_continue(Continue::run);
+    if (n == windows || !go_on || output_due(n, window, parameters.output.interval))
+      link.swap_text("{}");  // the particles have written
     if (options.print && (n <= 2 || n == windows)) fmt::print("{}\n", report.dump());
 
     const double solid = report.at("solid_volume"), mass = report.at("mass");
