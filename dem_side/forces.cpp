@@ -258,10 +258,18 @@ std::vector<BulkParticles> FluidForces::contributions() const {
     const CarriedFluid& fluid = carried_by(rows, i);
     const double beta = mean_drag_factor(fluid);
     const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? fluid.contact_steps / steps_ : 1;
-    const double response =
-        drag_response(beta, particles.mass[i], window_, held, added_mass(fluid, particles.radius[i]));
+    const double added = added_mass(fluid, particles.radius[i]);
+    const double response = drag_response(beta, particles.mass[i], window_, held, added);
     BulkParticles& here = contributions[i];
     here.solid_volume = sphere_volume(particles.radius[i]);
+    if (dem_.moves(particles.mask[i])) {
+      const double inertia = particles.mass[i] + added;
+      const double theta = inertial_share(beta, inertia, window_);
+      // Added mass: grad p and rho Du/Dt push alike.
+      const double push = (1 + parameters_.added_mass) * here.solid_volume / inertia;
+      here.pressure_mobility = theta * here.solid_volume * push;
+      here.following_volume = (1 - theta) * here.solid_volume;
+    }
     here.drag_impulse = fluid.drag_impulse;
     here.drag_factor = beta;
     here.drag_response = response;

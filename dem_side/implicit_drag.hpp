@@ -38,6 +38,12 @@ inline Vec3 implicit_drag(double beta, const Vec3& slip, const Vec3& other, doub
   return beta * phi * slip + (phi - 1) * other;
 }
 
+/// theta, -: how much of its own inertia is left to a free particle over a window (s), 1 without drag, 0 when
+/// it follows the fluid at once. inertia: m + m_a, kg.
+inline double inertial_share(double beta, double inertia, double window) {
+  return mean_decay(beta * window / inertia);
+}
+
 /// beta_eff, kg/s: change of what a particle takes from the fluid, per time, with the fluid velocity. A free
 /// particle follows the fluid, (m/window)(1 - exp(-beta window/(m + m_a))): of the momentum it gains the
 /// added mass m_a is the fluid's own. One held by contacts does not follow, beta.

@@ -24,6 +24,7 @@
 #include <iterator>
 #include <utility>
 
+#include "coupler/exchange/relaxation.hpp"
 #include "coupler/link/errors.hpp"
 #include "coupler/link/mpi_check.hpp"
 #include "foam_side/cell_field.hpp"
@@ -298,7 +299,34 @@ CellValues<BulkFluid> Bridge::bulk_fluid() {
   shift_.cells = fluid.cells;
   for (std::size_t i = 0; i < fluid.cells.size(); ++i)
     shift_.values[i] = fluid.values[i].velocity - shift_.values[i];
+  relax(fluid);
   return fluid;
+}
+
+/// A cell whose particles were told nothing before is told the fluid as it is.
+void Bridge::relax(CellValues<BulkFluid>& fluid) {
+  CellValues<Told> told;
+  told.cells = fluid.cells;
+  relaxation_.assign(fluid.cells.size(), 1.0);
+  relaxed_ = {};
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
+    BulkFluid& cell = fluid.values[i];
+    const BulkParticles* particles = find(owned_, fluid.cells[i]);
+    const Told* before = find(told_, fluid.cells[i]);
+    told.values.push_back({cell.velocity, cell.pressure_gradient, before ? before->acceleration : Vec3{}});
+    if (!flow_.porosity || !particles || !before) continue;
+    const double omega =
+        relaxation_factor(*particles, cell.density, cell.void_fraction * grid_.cell_volume());
+    relaxation_[i] = omega;
+    if (omega == 1) continue;
+    relaxed_.smallest = std::min(relaxed_.smallest, omega);
+    ++relaxed_.cells;
+    Told& now = told.values.back();
+    cell.velocity = now.velocity = before->velocity + omega * (cell.velocity - before->velocity);
+    cell.pressure_gradient = now.pressure_gradient =
+        before->pressure_gradient + omega * (cell.pressure_gradient - before->pressure_gradient);
+  }
+  told_ = std::move(told);
 }
 
 /// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds
@@ -333,7 +361,13 @@ void Bridge::go_on_from(State state) {
   owned_ = std::move(state.particles);
   left_over_ = std::move(state.left_over);
   felt_shift_ = std::move(state.felt_shift);
+  told_ = std::move(state.told);
   distribute();
+}
+
+Bridge::Relaxed Bridge::relaxed() const {
+  return {Foam::returnReduce(relaxed_.smallest, Foam::minOp<double>()),
+          Foam::returnReduce(relaxed_.cells, Foam::sumOp<long>())};
 }
 
 CellId Bridge::active_cells() const {

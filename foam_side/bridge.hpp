@@ -65,8 +65,8 @@ class Bridge {
   /// which is theirs from now on.
   CellValues<BulkFluid> bulk_fluid();
 
-  /// Derivatives on the same cells; only when a force needs them (need_gradients).
-  CellValues<BulkFluidGradients> bulk_fluid_gradients() const;
+  /// Derivatives on the same cells, after bulk_fluid; only when a force needs them (need_gradients).
+  CellValues<BulkFluidGradients> bulk_fluid_gradients();
   /// Solid volume times velocity of the particles, per volume of each fine cell, m/s (phase interchange
   /// `volume_adding`).
   Foam::vectorField solid_flux_density() const;
@@ -85,23 +85,36 @@ class Bridge {
 
   CellId active_cells() const;  // over all ranks
 
+  /// Where the last bulk_fluid told the particles a relaxed fluid, over all ranks.
+  struct Relaxed {
+    double smallest = 1;  // relaxation factor, -
+    long cells = 0;       // with a factor below 1
+  };
+  Relaxed relaxed() const;
+
   /// Impulse owed to the particles of a bulk cell, and the drag it came from.
   struct LeftOver {
     Vec3 impulse;            // N s
     double drag_factor = 0;  // sum of w beta, kg/s
+  };
+  /// What the particles of a bulk cell were last told of the fluid (coupler/exchange/relaxation.hpp).
+  struct Told {
+    Vec3 velocity, pressure_gradient, acceleration;  // m/s, Pa/m, m/s2
   };
   /// What lives from one window to the next, on the bulk cells owned by this rank.
   struct State {
     CellValues<BulkParticles> particles;
     CellValues<LeftOver> left_over;
     CellValues<Vec3> felt_shift;
+    CellValues<Told> told;
   };
-  State state() const { return {owned_, left_over_, felt_shift_}; }
+  State state() const { return {owned_, left_over_, felt_shift_, told_}; }
   /// Goes on from the state at the end of a window. After the particles of that time have been taken.
   void go_on_from(State state);
 
  private:
   void return_left_over(CellValues<BulkParticles>& particles);
+  void relax(CellValues<BulkFluid>& fluid);
   void distribute();
   scalarField void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const;
   void sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
@@ -132,6 +145,9 @@ class Bridge {
   // of, per owned and per touched cell.
   CellValues<Vec3> shift_, felt_shift_;
   std::vector<Vec3> felt_shift_here_;
+  CellValues<Told> told_;           // cells of the last bulk_fluid
+  std::vector<double> relaxation_;  // of these, -
+  Relaxed relaxed_;                 // this rank
   Spread spread_;
 };
 

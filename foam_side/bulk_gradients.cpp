@@ -18,7 +18,7 @@ struct GradientSums {
 
 }  // namespace
 
-CellValues<BulkFluidGradients> Bridge::bulk_fluid_gradients() const {
+CellValues<BulkFluidGradients> Bridge::bulk_fluid_gradients() {
   const FluidGradients fine = fluid_gradients(flow_, parameters_.forces);
   const std::vector<double> weight = fine_weights();
   std::vector<GradientSums> sums(touched_.size());
@@ -36,9 +36,14 @@ CellValues<BulkFluidGradients> Bridge::bulk_fluid_gradients() const {
   for (std::size_t i = 0; i < owned.cells.size(); ++i) {
     const GradientSums& sum = owned.values[i];
     if (!(sum.volume > 0)) continue;  // as in bulk_fluid
+    Told& told = told_.values[bulk.cells.size()];
     bulk.cells.push_back(owned.cells[i]);
     bulk.values.push_back({sum.weighted.stress_force / sum.volume, sum.weighted.acceleration / sum.weight,
                            sum.weighted.vorticity / sum.weight});
+    Vec3& acceleration = bulk.values.back().acceleration;
+    const double omega = relaxation_[bulk.cells.size() - 1];
+    if (omega < 1) acceleration = told.acceleration + omega * (acceleration - told.acceleration);
+    told.acceleration = acceleration;
   }
   return bulk;
 }

@@ -11,6 +11,7 @@
 
 #include "foam_side/flow.hpp"
 #include "inletOutletFvPatchFields.H"
+#include "transformFvPatchFields.H"
 
 namespace demvof {
 namespace {
@@ -49,7 +50,9 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
   surfaceScalarField through("balanced", flux);
   const auto given = [&flow](label patch) {
     const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
-    return !at.coupled() && at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
+    if (at.coupled()) return false;
+    if (Foam::isA<Foam::transformFvPatchVectorField>(at)) return true;  // slip, symmetry: nothing passes
+    return at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
   };
   forAll(flow.mesh.boundary(), patch) {
     if (!given(patch)) continue;

@@ -83,11 +83,10 @@ void go_on(Flow& flow, const json& state) {
 void write_fluid_restart(const fs::path& run, long window, const Flow& flow, const ForceParameters& forces,
                          const Bridge& bridge, const RunRecord& record) {
   const Bridge::State exchange = bridge.state();
-  const json state = {{"flow", flow_state(flow, forces)},
-                      {"particles", as_json(exchange.particles)},
-                      {"left_over", as_json(exchange.left_over)},
-                      {"felt_shift", as_json(exchange.felt_shift)},
-                      {"books", record.books()}};
+  const json state = {
+      {"flow", flow_state(flow, forces)},         {"particles", as_json(exchange.particles)},
+      {"left_over", as_json(exchange.left_over)}, {"felt_shift", as_json(exchange.felt_shift)},
+      {"told", as_json(exchange.told)},           {"books", record.books()}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
@@ -102,7 +101,8 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
     const json state = json::from_cbor(stream);
     bridge.go_on_from({cell_values<BulkParticles>(state.at("particles")),
                        cell_values<Bridge::LeftOver>(state.at("left_over")),
-                       cell_values<Vec3>(state.at("felt_shift"))});
+                       cell_values<Vec3>(state.at("felt_shift")),
+                       cell_values<Bridge::Told>(state.at("told"))});
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));
   } catch (const json::exception& error) {

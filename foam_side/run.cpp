@@ -144,6 +144,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.negative_cells = bridge.spread().negative_cells;
     if (replaces) done.replacement = replacement;
     done.active_cells = static_cast<long>(bridge.active_cells());
+    done.relaxation = bridge.relaxed().smallest;
+    done.relaxed_cells = bridge.relaxed().cells;
     done.particles = json::parse(link.swap_text("{}"));
     go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
     seconds.waiting = link.statistics().waiting_seconds;

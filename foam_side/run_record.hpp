@@ -50,11 +50,13 @@ class RunRecord {
 
   /// One window (with particles) or time step (without).
   struct Window {
-    long number = 0, planned = 0;                 // planned 0: not known
-    Vec3 explicit_impulse, implicit_impulse;      // that the fluid received, N s
-    long active_cells = 0;                        // of the bulk grid
-    std::optional<double> fine_solid_volume;      // as mapped to the mesh, m3; without porosity nothing is
-    long negative_cells = 0;                      // fine cells whose solid fraction was interpolated below 0
+    long number = 0, planned = 0;             // planned 0: not known
+    Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
+    long active_cells = 0;                    // of the bulk grid
+    std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
+    double relaxation = 1;                    // smallest relaxation factor of what the particles were told
+    long relaxed_cells = 0;                   // bulk cells with a factor below 1
+    long negative_cells = 0;                  // fine cells whose solid fraction was interpolated below 0
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
     nlohmann::json particles;                     // dem_side's report; null without particles
     FluidSeconds seconds;

@@ -52,6 +52,8 @@ struct BulkParticles {
   double drag_response = 0;     // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
   Vec3 drag_weighted_velocity;  // sum w (beta v - mean lift and added-mass force), N
   Vec3 response_weighted_velocity;  // sum w beta_eff u_felt (fluid velocity each particle felt), N
+  double pressure_mobility = 0;     // sum w theta V^2/m of those that forces move, m6/kg (relaxation.hpp)
+  double following_volume = 0;      // sum w (1 - theta) V of these, m3
 };
 
 /// Number of doubles in one record; records travel and are summed as plain rows of doubles.

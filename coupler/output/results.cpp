@@ -76,6 +76,7 @@ std::string results_json(const RunResults& r) {
                        {"left", r.particles.left},
                        {"lost", r.particles.lost},
                        {"final", r.particles.final}};
+  json["relaxation"] = {{"smallest", r.relaxation.smallest}, {"cells", r.relaxation.cells}};
   json["exchanged"] = {{"bytes", r.exchanged.bytes}, {"cells", r.exchanged.cells}};
   json["conservation"] = {{"exchange", r.conservation.exchange},
                           {"momentum", r.conservation.momentum},

@@ -57,6 +57,10 @@ struct RunResults {
     long initial = 0, inserted = 0, left = 0, lost = 0, final = 0;
   } particles;
   struct {
+    double smallest = 1;  // relaxation factor of what the particles were told of the fluid (relaxation.hpp)
+    long cells = 0;       // bulk cells times windows in which it was below 1
+  } relaxation;
+  struct {
     std::int64_t bytes = 0, cells = 0;
   } exchanged;  // both ways, whole run
   struct {

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Particles and fluid that push each other about, in one bulk cell and window (staggered). Fluid of density
+// 1, window 1, volume 1; free particles of density rho_p fill eps_s. What the particles do in a window is
+// solved exactly; what the fluid gets and what they are told is what fluid_source() and relaxation_factor()
+// say.
+//
+//   volume   the fluid has to make way: eps u + eps_s v = 0, v the mean over the window; its pressure
+//   gradient
+//            is what takes it to this velocity, in the first of its steps
+//   shear    nobody makes way: u from the momentum equation, no pressure gradient
+//
+// Stability is the growth of the linear map from window to window.
+
+#include "coupler/exchange/relaxation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "coupler/exchange/momentum_exchange.hpp"
+#include "dem_side/implicit_drag.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double window = 1;
+enum class Mode { volume, shear };
+enum class Told { relaxed, as_is };
+
+// u, v: fluid, particles; u_told, g_told, a_told: velocity, pressure gradient, acceleration that the
+// particles feel in the coming window; m: left-over owed to them.
+enum { u, v, u_told, g_told, a_told, m, unknowns };
+using State = std::array<double, unknowns>;
+
+struct Cell {
+  double solid_fraction, density, x;  // eps_s; rho_p; beta window/(mass and added mass of a particle)
+  int fluid_steps = 1;
+  double added_coefficient = 0;
+
+  double eps() const { return 1 - solid_fraction; }
+  double added() const { return added_coefficient * solid_fraction; }
+  double inertia() const { return solid_fraction * density + added(); }
+  double drag() const { return x * inertia() / window; }
+
+  BulkParticles particles() const {
+    BulkParticles sum;
+    const double theta = inertial_share(drag(), inertia(), window);
+    sum.solid_volume = solid_fraction;
+    sum.drag_factor = drag();
+    sum.drag_response = drag_response(drag(), solid_fraction * density, window, 0, added());
+    sum.pressure_mobility = theta * solid_fraction * (1 + added_coefficient) * solid_fraction / inertia();
+    sum.following_volume = (1 - theta) * solid_fraction;
+    return sum;
+  }
+
+  State advance(const State& now, Mode mode, Told told) const {
+    const double k = drag();
+    const double other = -solid_fraction * now[g_told] + now[m] / window + added() * now[a_told];
+    const double target = now[u_told] + other / k;
+    State next = now;
+    next[v] = target + (now[v] - target) * std::exp(-x);
+    const double mean = target + (now[v] - target) * mean_decay(x);
+
+    BulkParticles cell = particles();
+    cell.drag_impulse.x =
+        window * k * (now[u_told] - mean) + added() * (window * now[a_told] - (next[v] - now[v]));
+    cell.response_weighted_velocity.x = cell.drag_response * now[u_told];
+    const FluidSource source =
+        fluid_source(ExchangeScheme::conservative_implicit, cell, cell.drag_response, window);
+
+    const double step = window / fluid_steps;
+    double gradient = 0, implicit = 0, acceleration = 0;
+    for (int n = 0; n < fluid_steps; ++n) {
+      const double before = next[u];
+      const double pull = source.explicit_force.x + source.coefficient * source.reference_velocity.x;
+      if (mode == Mode::volume) {
+        next[u] = -solid_fraction / eps() * mean;
+        gradient = (pull - source.coefficient * next[u] - eps() * (next[u] - before) / step) / eps();
+      } else {
+        next[u] = (eps() * before + step * pull) / (eps() + step * source.coefficient);
+      }
+      acceleration = (next[u] - before) / step;
+      implicit += step * source.coefficient * (source.reference_velocity.x - next[u]);
+    }
+    next[m] = -implicit;
+    const double omega = told == Told::relaxed ? relaxation_factor(cell, 1, eps()) : 1;
+    next[u_told] += omega * (next[u] - now[u_told]);
+    next[g_told] += omega * (gradient - now[g_told]);
+    next[a_told] += omega * (acceleration - now[a_told]);
+    return next;
+  }
+
+  /// Growth per window in the long run: spectral radius of the map, from its 2^32nd power.
+  double growth(Mode mode, Told told = Told::relaxed) const {
+    using Matrix = std::array<State, unknowns>;
+    Matrix a;
+    for (int column = 0; column < unknowns; ++column) {
+      State unit{};
+      unit[column] = 1;
+      const State image = advance(unit, mode, told);
+      for (int row = 0; row < unknowns; ++row) a[row][column] = image[row];
+    }
+    double log_size = 0;
+    for (int s = 0; s < 32; ++s) {
+      Matrix square{};
+      double size = 0;
+      for (int i = 0; i < unknowns; ++i)
+        for (int j = 0; j < unknowns; ++j) {
+          for (int l = 0; l < unknowns; ++l) square[i][j] += a[i][l] * a[l][j];
+          size = std::max(size, std::abs(square[i][j]));
+        }
+      if (size == 0) return 0;
+      for (State& row : square)
+        for (double& value : row) value /= size;
+      a = square;
+      log_size = 2 * log_size + std::log(size);
+    }
+    return std::exp(log_size / std::pow(2.0, 32));
+  }
+};
+
+const std::vector<double> densities = {0.01, 0.03, 0.1, 0.2, 0.5, 0.8, 1.1, 2.5, 5, 8, 20};
+const std::vector<double> solid_fractions = {0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.65, 0.7};
+const std::vector<double> responses = {1e-3, 1e-2, 0.03, 0.1, 0.3, 1, 1.7, 3, 10, 30, 100, 1e3, 1e4};
+
+template <class Visit>
+void for_all_cells(double added_coefficient, Visit visit) {
+  for (const double density : densities)
+    for (const double solid_fraction : solid_fractions)
+      for (const double x : responses)
+        for (const int steps : {1, 2, 5, 20}) {
+          SCOPED_TRACE(testing::Message() << "rho_p " << density << " eps_s " << solid_fraction << " x " << x
+                                          << " fluid steps " << steps << " C_m " << added_coefficient);
+          visit(Cell{solid_fraction, density, x, steps, added_coefficient});
+        }
+}
+
+TEST(Relaxation, NothingGrows) {
+  for_all_cells(0, [](const Cell& cell) {
+    EXPECT_LT(cell.growth(Mode::volume), 1 + 1e-6);
+    EXPECT_LT(cell.growth(Mode::shear), 1 + 1e-6);
+  });
+}
+
+// The reaction to the added mass is late by itself (added_mass_exchange.cpp): eps > C_m/(1 + C_m).
+TEST(Relaxation, NothingGrowsWithAddedMassUpToItsOwnLimit) {
+  for_all_cells(0.5, [](const Cell& cell) {
+    if (cell.eps() < 0.4) return;
+    EXPECT_LT(cell.growth(Mode::volume), 1 + 1e-6);
+    EXPECT_LT(cell.growth(Mode::shear), 1 + 1e-6);
+  });
+}
+
+TEST(Relaxation, WithoutItBedsGrow) {
+  // Where inertia rules: times R = s rho/rho_p per window, however short.
+  EXPECT_NEAR((Cell{0.6, 0.05, 1e-3}.growth(Mode::volume, Told::as_is)), 1.5 / 0.05, 20);
+  EXPECT_GT((Cell{0.6, 0.05, 1e-6}.growth(Mode::volume, Told::as_is)), 10);
+  // Where drag rules: dense beds, in windows longer than the particles' response.
+  EXPECT_GT((Cell{0.6, 2.5, 1e4}.growth(Mode::volume, Told::as_is)), 1.5);
+  EXPECT_LT((Cell{0.6, 2.5, 1e-2}.growth(Mode::volume, Told::as_is)), 1);
+}
+
+TEST(Relaxation, LeavesDiluteAndHeavyParticlesAlone) {
+  for (const double x : responses) {
+    EXPECT_EQ(relaxation_factor(Cell{0.1, 2.5, x}.particles(), 1, 0.9), 1);
+    EXPECT_EQ(relaxation_factor(Cell{0.01, 0.1, x}.particles(), 1, 0.99), 1);
+  }
+  EXPECT_EQ(relaxation_factor(BulkParticles{}, 1000, 1e-6), 1);
+  BulkParticles held;
+  held.solid_volume = 0.6;
+  EXPECT_EQ(relaxation_factor(held, 1000, 0.4), 1) << "no force moves them";
+}
+
+TEST(Relaxation, IsAShareOfTheChange) {
+  for_all_cells(0.5, [](const Cell& cell) {
+    const double omega = relaxation_factor(cell.particles(), 1, cell.eps());
+    EXPECT_GT(omega, 1e-3);
+    EXPECT_LE(omega, 1);
+  });
+}
+
+}  // namespace
+}  // namespace demvof
