@@ -67,11 +67,13 @@ void agree_on_both_sides(surfaceVectorField& face_velocity) {
   }
 }
 
-/// What hangs on the mesh and is no mapped field; values across cuts between ranks.
+/// What hangs on the mesh and is no mapped field; values across cuts between ranks, of the step before too: a
+/// flux that takes them differs on both sides of the cut otherwise.
 void renew_geometry(Flow& flow) {
-  for (volScalarField* field : {&flow.alpha, &flow.mixture.alpha2(), &flow.rho})
+  for (volScalarField* field :
+       {&flow.alpha, &flow.alpha.oldTime(), &flow.mixture.alpha2(), &flow.rho, &flow.rho.oldTime()})
     field->correctBoundaryConditions();
-  flow.U.correctBoundaryConditions();
+  for (volVectorField* field : {&flow.U, &flow.U.oldTime()}) field->correctBoundaryConditions();
   flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
   flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
   Foam::setRefCell(flow.p, flow.p_rgh, flow.pimple.dict(), flow.p_reference_cell, flow.p_reference);
