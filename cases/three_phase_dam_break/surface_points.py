@@ -29,6 +29,7 @@ from reporting.figures import COLOURS, pyplot  # noqa: E402
 
 TIME, LENGTH = 0.4, 0.2  # s, m
 STEP, TURN, FLOOR_LAYER = 0.25e-3, 1e-3, 0.1  # m
+FULL = 0.99  # liquid fraction
 NAMES = ("xA", "xB", "yA", "yB", "yC")
 
 
@@ -43,14 +44,19 @@ def attached(section):
     heights = numpy.arange(section.lower[1] + 0.5 * STEP, section.upper[1], STEP)
     ends = numpy.full(len(heights), numpy.nan)
     for i, z in enumerate(heights):
-        if not any(bottom <= z < top and liquid > 0.5 for bottom, top, liquid in at_wall):
+        here = [liquid for bottom, top, liquid in at_wall if bottom <= z < top]
+        if not here or max(here) <= 0.5:
             continue
         crossed = lines[(low <= z) & (z < high)]
         if len(crossed):
             (x0, z0), (x1, z1) = crossed[:, 0].T, crossed[:, 1].T
             ends[i] = (x0 + (z - z0) / (z1 - z0) * (x1 - x0)).max()
-        else:  # liquid from wall to wall, or a film thinner than the cell at the wall
-            ends[i] = section.lower[0] if any(b <= z < t and liquid > 0.5 for b, t, liquid in at_other_wall) else wall
+        elif any(b <= z < t and liquid > 0.5 for b, t, liquid in at_other_wall):  # liquid from wall to wall
+            ends[i] = section.lower[0]
+        elif max(here) > FULL and i > 0:  # level surface of the layer: no line crosses this height
+            ends[i] = ends[i - 1]
+        else:  # a film thinner than the cell at the wall
+            ends[i] = wall
     return heights, ends
 
 
