@@ -12,6 +12,7 @@
 
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "dem_side/implicit_drag.hpp"
+#include "tests/support/growth.hpp"
 
 namespace demvof {
 namespace {
@@ -56,32 +57,9 @@ struct Cell {
     return next;
   }
 
-  /// Growth per window in the long run: spectral radius of the map, from its 2^32nd power.
+  /// Growth per window in the long run.
   double growth() const {
-    std::array<State, unknowns> map;  // map[row][column]
-    for (int column = 0; column < unknowns; ++column) {
-      State unit{};
-      unit[column] = 1;
-      const State image = advance(unit);
-      for (int row = 0; row < unknowns; ++row) map[row][column] = image[row];
-    }
-    double log_size = 0;
-    const int squarings = 32;
-    for (int s = 0; s < squarings; ++s) {
-      std::array<State, unknowns> square{};
-      double size = 0;
-      for (int i = 0; i < unknowns; ++i)
-        for (int j = 0; j < unknowns; ++j) {
-          for (int l = 0; l < unknowns; ++l) square[i][j] += map[i][l] * map[l][j];
-          size = std::max(size, std::abs(square[i][j]));
-        }
-      if (size == 0) return 0;
-      for (State& row : square)
-        for (double& value : row) value /= size;
-      map = square;
-      log_size = 2 * log_size + std::log(size);
-    }
-    return std::exp(log_size / std::pow(2.0, squarings));
+    return growth_of<State>([this](const State& unit) { return advance(unit); });
   }
 };
 

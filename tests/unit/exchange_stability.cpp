@@ -14,6 +14,7 @@
 #include "coupler/config/enum_names.hpp"
 #include "coupler/exchange/ledger.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
+#include "tests/support/growth.hpp"
 
 namespace demvof {
 namespace {
@@ -96,33 +97,9 @@ struct Cell {
     return next;
   }
 
-  /// Growth per window in the long run: spectral radius of the map, from its 2^32nd power.
+  /// Growth per window in the long run.
   double growth() const {
-    using Matrix = std::array<State, unknowns>;
-    Matrix a;
-    for (int column = 0; column < unknowns; ++column) {
-      State unit{};
-      unit[column] = 1;
-      const State image = advance(unit);
-      for (int row = 0; row < unknowns; ++row) a[row][column] = image[row];
-    }
-    double log_size = 0;
-    const int squarings = 32;
-    for (int s = 0; s < squarings; ++s) {
-      Matrix square{};
-      double size = 0;
-      for (int i = 0; i < unknowns; ++i)
-        for (int l = 0; l < unknowns; ++l) {
-          for (int k = 0; k < unknowns; ++k) square[i][l] += a[i][k] * a[k][l];
-          size = std::max(size, std::abs(square[i][l]));
-        }
-      if (size == 0) return 0;
-      for (auto& row : square)
-        for (double& value : row) value /= size;
-      a = square;
-      log_size = 2 * log_size + std::log(size);
-    }
-    return std::exp(log_size / std::pow(2.0, squarings));
+    return growth_of<State>([this](const State& unit) { return advance(unit); });
   }
   bool stable() const { return growth() < 1 + 1e-6; }
 };

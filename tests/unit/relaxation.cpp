@@ -22,6 +22,7 @@
 
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "dem_side/implicit_drag.hpp"
+#include "tests/support/growth.hpp"
 
 namespace demvof {
 namespace {
@@ -93,32 +94,9 @@ struct Cell {
     return next;
   }
 
-  /// Growth per window in the long run: spectral radius of the map, from its 2^32nd power.
+  /// Growth per window in the long run.
   double growth(Mode mode, Told told = Told::relaxed) const {
-    using Matrix = std::array<State, unknowns>;
-    Matrix a;
-    for (int column = 0; column < unknowns; ++column) {
-      State unit{};
-      unit[column] = 1;
-      const State image = advance(unit, mode, told);
-      for (int row = 0; row < unknowns; ++row) a[row][column] = image[row];
-    }
-    double log_size = 0;
-    for (int s = 0; s < 32; ++s) {
-      Matrix square{};
-      double size = 0;
-      for (int i = 0; i < unknowns; ++i)
-        for (int j = 0; j < unknowns; ++j) {
-          for (int l = 0; l < unknowns; ++l) square[i][j] += a[i][l] * a[l][j];
-          size = std::max(size, std::abs(square[i][j]));
-        }
-      if (size == 0) return 0;
-      for (State& row : square)
-        for (double& value : row) value /= size;
-      a = square;
-      log_size = 2 * log_size + std::log(size);
-    }
-    return std::exp(log_size / std::pow(2.0, 32));
+    return growth_of<State>([&](const State& unit) { return advance(unit, mode, told); });
   }
 };
 

@@ -51,6 +51,9 @@ def summary(run):
         ("peak memory", f"{size(number('peak_memory_bytes.fluid'))} fluid, "
                         f"{size(number('peak_memory_bytes.particles'))} particles"),
     ]
+    if number("relaxation.cells"):
+        rows.append(("told a relaxed fluid", f"{amount(number('relaxation.cells'))} bulk cells times windows, factor down "
+                                             f"to {amount(number('relaxation.smallest'))}"))
     if number("exchanged.bytes") and number("steps.windows"):
         rows.append(("exchanged", f"{number('exchanged.bytes') / number('steps.windows') / 1e3:.4g} kB per window"))
     rows.append(("machine", f"{machine.get('cpu', 'unknown')}, {machine.get('cores', '?')} cores"))
