@@ -3,7 +3,7 @@
 """Levels and velocity integrals of several runs: compare.py [--picture FILE] [--json FILE] [LABEL=]RUN ...
 
 Left the mean level against time, right the integral of u.u over the box, which the paper calls the L2 norm of the
-velocity. Printed: the level in the end against 0.3 m + volume of the beads over the floor, the largest integral, and the
+velocity; a colour for each fine mesh, the column dashed. Printed: the level in the end against 0.3 m + volume of the beads over the floor, the largest integral, and the
 mean of the last 0.2 s.
 """
 import argparse
@@ -40,15 +40,18 @@ def main():
     arguments = parser.parse_args()
 
     figure, (levels, integrals) = pyplot.subplots(1, 2, figsize=(9.6, 3.6))
-    table = []
-    for number, word in enumerate(arguments.runs):
+    table, meshes = [], []
+    for word in arguments.runs:
         label, _, folder = word.rpartition("=")
         run = Run(folder)
         row = facts(label or run.name, run)
         table.append(row)
-        colour = COLOURS[number % len(COLOURS)]
-        levels.plot(run.times, 1e3 * run.history["mean_level"], label=row["run"], color=colour)
-        integrals.semilogy(run.times[1:], run.history["velocity_squared_integral"][1:], label=row["run"], color=colour)
+        if row["fine_cells"] not in meshes:
+            meshes.append(row["fine_cells"])
+        look = {"label": row["run"], "color": COLOURS[meshes.index(row["fine_cells"]) % len(COLOURS)],
+                "linestyle": "--" if row["script"].endswith("column") else "-"}
+        levels.plot(run.times, 1e3 * run.history["mean_level"], **look)
+        integrals.semilogy(run.times[1:], run.history["velocity_squared_integral"][1:], **look)
         print(f"{row['run']:<16} level at {row['end']:.2f} s {row['level']:.6f} m (exact {row['exact_level']:.6f}, highest "
               f"{row['highest_level']:.6f})   integral: largest {row['largest_integral']:.2e} at {row['largest_at']:.2f} s, "
               f"last 0.2 s {row['late_integral']:.2e} m5/s2")
@@ -56,7 +59,7 @@ def main():
         levels.axhline(1e3 * exact, color="#9aa4ad", linewidth=0.8, linestyle="--")
     levels.set(xlabel="t, s", ylabel="mean level, mm")
     integrals.set(xlabel="t, s", ylabel="integral of u.u, m5/s2")
-    levels.legend()
+    levels.legend(fontsize=8)
     figure.tight_layout()
     if arguments.picture:
         figure.savefig(arguments.picture, dpi=100)
