@@ -91,6 +91,23 @@ const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& partic
   return deposited_;
 }
 
+const CellValues<BulkParticles>& Averaging::count_support(const std::vector<Support>& support) {
+  std::vector<Support> touched(weights_.cells.size());
+  demvof::deposit(weights_, rows(support), row_width<Support>(), rows(touched));
+  CellValues<Support> owned = touched_->sum_to_owners(touched);
+  if (diffusion_) owned = diffusion_->spread(std::move(owned));
+  for (std::size_t i = 0; i < deposited_.cells.size(); ++i) {
+    const Support* here = find(owned, deposited_.cells[i]);
+    BulkParticles& cell = deposited_.values[i];
+    if (!here || !(cell.drag_response > here->free_response)) continue;
+    const double response =
+        here->free_response + support_by_contacts(*here) * (cell.drag_response - here->free_response);
+    cell.response_weighted_velocity *= response / cell.drag_response;
+    cell.drag_response = response;
+  }
+  return deposited_;
+}
+
 double Averaging::largest_solid_fraction() const {
   double largest = 0;
   for (const BulkParticles& cell : deposited_.values) largest = std::max(largest, cell.solid_volume);

@@ -39,6 +39,10 @@ class Averaging {
   const CellValues<BulkParticles>& deposit(const ParticleArrays& particles,
                                            const std::vector<BulkParticles>& contributions);
 
+  /// Takes back from the responses of the last deposit what contacts that bear nothing stand for
+  /// (support.hpp). support: one per local particle. Collective.
+  const CellValues<BulkParticles>& count_support(const std::vector<Support>& support);
+
   /// The fluid at each local particle of the last deposit. Collective. owned: this rank's cells of
   /// that deposit. Cells without fluid do not count in the mean; a particle that reaches no other
   /// gets density 0. gradients: of the same cells, when a force needs them.

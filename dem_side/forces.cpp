@@ -202,6 +202,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     const Vec3 contact = vec3(particles.force[i]) - weight;
     fluid.contact_steps += touches(contact, weight);
     if (moves) {
+      fluid.contact_impulse += step * contact;
       sums.contact += contact;
       sums.gravity += weight;
       sums.constant += constant;
@@ -279,6 +280,26 @@ std::vector<BulkParticles> FluidForces::contributions() const {
     here.response_weighted_velocity = response * fluid.velocity;
   }
   return contributions;
+}
+
+std::vector<Support> FluidForces::support() const {
+  const ParticleArrays particles = dem_.particles();
+  std::vector<Support> support(particles.count);
+  double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradient_rows =
+      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedFluid& fluid = carried_by(rows, i);
+    const bool moves = dem_.moves(particles.mask[i]);
+    Vec3 others = fluid.pressure_force + fluid.left_over_force;
+    if (gradient_rows) others += carried_by<CarriedGradients>(gradient_rows, i).stress_force;
+    if (moves) others += parameters_.constant;
+    if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * dem_.gravity();
+    const double beta = mean_drag_factor(fluid), added = added_mass(fluid, particles.radius[i]);
+    support[i] = {fluid.contact_impulse, fluid.drag_impulse, window_ * others,
+                  drag_response(beta, particles.mass[i], window_, moves ? 0 : 1, added)};
+  }
+  return support;
 }
 
 const CarriedFluid& FluidForces::carried(int i) const {

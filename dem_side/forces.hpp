@@ -33,6 +33,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/wake_width.hpp"
 #include "dem_side/dem.hpp"
+#include "dem_side/support.hpp"
 
 namespace demvof {
 
@@ -59,6 +60,7 @@ struct CarriedFluid {
   Vec3 drag_impulse;           // received in this window, lift and added mass included, N s
   double drag_factor_sum = 0;  // sum of beta over the steps of this window, kg/s
   double contact_steps = 0;    // steps of this window with a force other than gravity
+  Vec3 contact_impulse;        // received from contacts in this window, N s
 };
 
 /// What it carries besides when a force needs the fluid's derivatives.
@@ -101,6 +103,9 @@ class FluidForces {
 
   /// What each local particle adds to the bulk grid at the end of the window, before weighting.
   std::vector<BulkParticles> contributions() const;
+
+  /// The same of what holds it.
+  std::vector<Support> support() const;
 
   /// State of local particle i.
   const CarriedFluid& carried(int i) const;

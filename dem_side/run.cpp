@@ -112,6 +112,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     std::vector<BulkParticles> contributions = forces.contributions();
     if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
     averaging.deposit(dem.particles(), contributions);
+    averaging.count_support(forces.support());
   };
   deposit();
   Report report(dem);

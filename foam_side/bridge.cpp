@@ -54,12 +54,6 @@ struct FluidSums {
   double volume = 0;       // sum V
 };
 
-/// Of a bulk cell, over its fine cells.
-struct CellSums {
-  double weight = 0;  // sum w V
-  double mass = 0;    // sum eps rho V, kg
-};
-
 BulkFluid means(const FluidSums& sum) {
   BulkFluid cell;
   cell.velocity = sum.weighted_velocity / sum.weight;
@@ -171,18 +165,13 @@ std::vector<double> Bridge::fine_weights() const {
 
 void Bridge::spread_sources() {
   const std::vector<double> weight = fine_weights();
-  std::vector<CellSums> total(touched_.size());
-  for (const Piece& piece : pieces_) {
-    total[piece.slot].weight += weight[piece.fine] * piece.volume;
-    total[piece.slot].mass += eps(piece.fine) * flow_.rho[piece.fine] * piece.volume;
-  }
-  total = remap_->cells().fetch_from_owners(remap_->cells().sum_to_owners(total), CellSums{});
+  std::vector<double> total(touched_.size());  // sum w V over the fine cells of a bulk cell
+  for (const Piece& piece : pieces_) total[piece.slot] += weight[piece.fine] * piece.volume;
+  total = remap_->cells().fetch_from_owners(remap_->cells().sum_to_owners(total), 0.0);
   const CouplingParameters& coupling = parameters_.coupling;
   std::vector<FluidSource> sources(touched_.size());
   for (std::size_t slot = 0; slot < sources.size(); ++slot) {
-    const double response =
-        fluid_response(coupling.schedule, touched_[slot], total[slot].mass, coupling.window);
-    sources[slot] = fluid_source(coupling.exchange, touched_[slot], response, coupling.window);
+    sources[slot] = fluid_source(coupling.exchange, touched_[slot], coupling.window);
     if (sampler_ || reconstructs_) sources[slot].reference_velocity -= felt_shift_here_[slot];
   }
 
@@ -194,7 +183,7 @@ void Bridge::spread_sources() {
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
     const FluidSource& bulk = sources[piece.slot];
-    const double share = weight[piece.fine] * piece.volume / (total[piece.slot].weight * volume[piece.fine]);
+    const double share = weight[piece.fine] * piece.volume / (total[piece.slot] * volume[piece.fine]);
     coefficient_part_[i] = share * bulk.coefficient;
     source.force[piece.fine] += share * to_foam(bulk.explicit_force);
     source.coefficient[piece.fine] += coefficient_part_[i];
@@ -314,9 +303,14 @@ void Bridge::relax(CellValues<BulkFluid>& fluid) {
     const BulkParticles* particles = find(owned_, fluid.cells[i]);
     const Told* before = find(told_, fluid.cells[i]);
     told.values.push_back({cell.velocity, cell.pressure_gradient, before ? before->acceleration : Vec3{}});
-    if (!flow_.porosity || !particles || !before) continue;
-    const double omega =
-        relaxation_factor(*particles, cell.density, cell.void_fraction * grid_.cell_volume());
+    if (!particles || !before) continue;
+    const double fluid_volume = cell.void_fraction * grid_.cell_volume();
+    const double gain = flow_.porosity ? making_way_gain(*particles, cell.density, fluid_volume) : 0;
+    const double response =
+        hands_back_left_over(parameters_.coupling.exchange)
+            ? particles->drag_response * parameters_.coupling.window / (cell.density * fluid_volume)
+            : 0;
+    const double omega = relaxation_factor(parameters_.coupling.schedule, gain, response);
     relaxation_[i] = omega;
     if (omega == 1) continue;
     relaxed_.smallest = std::min(relaxed_.smallest, omega);

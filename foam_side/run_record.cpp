@@ -323,12 +323,6 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
         "coupling.mapping.to_fine interpolated a solid fraction below 0, {} times: it was taken as "
         "0, and conservation.solid_volume has the error",
         limits_.negative_cells));
-  if (parameters_.coupling.schedule == Schedule::concurrent && shared_->results.relaxation.cells > 0)
-    lines.push_back(
-        fmt::format("particles and fluid push each other about (relaxation factor down to {:.2g}), which "
-                    "schedule: concurrent "
-                    "does not keep from growing in dense beds: look at the velocities, or take staggered",
-                    shared_->results.relaxation.smallest));
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));

@@ -25,19 +25,6 @@
 
 namespace demvof {
 
-/// K_eff V of a bulk cell, kg/s. Staggered: that of the particles, free ones following the fluid within the
-/// window. Concurrent: what they answer arrives a window late, and a fluid that counts on their following
-/// swings beyond it where they weigh more than itself; there beta, which counts on nothing. The limit is the
-/// middle of the range, 0.5 to 0.8, in which nothing grows (tests/unit/exchange_stability.cpp).
-/// fluid_mass: in the cell, kg; window, s.
-inline double fluid_response(Schedule schedule, const BulkParticles& particles, double fluid_mass,
-                             double window) {
-  constexpr double limit = 0.65;
-  if (schedule == Schedule::staggered) return particles.drag_response;
-  return particles.drag_response * window <= limit * fluid_mass ? particles.drag_response
-                                                                : particles.drag_factor;
-}
-
 /// Force of the particles on the fluid of one bulk cell: explicit_force + coefficient (reference - u).
 struct FluidSource {
   Vec3 explicit_force;      // N
@@ -45,10 +32,8 @@ struct FluidSource {
   Vec3 reference_velocity;  // m/s
 };
 
-/// particles: of the window just simulated by the DEM; window: s, > 0.
-/// response: K_eff V, kg/s.
-inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& particles, double response,
-                                double window) {
+/// particles: of a window simulated by the DEM; window: s, > 0.
+inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& particles, double window) {
   FluidSource source;
   switch (scheme) {
     case ExchangeScheme::explicit_drag:
@@ -63,7 +48,7 @@ inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& part
       break;
     case ExchangeScheme::conservative_implicit:
       source.explicit_force = -particles.drag_impulse / window;
-      source.coefficient = response;
+      source.coefficient = particles.drag_response;
       if (particles.drag_response > 0)
         source.reference_velocity = particles.response_weighted_velocity / particles.drag_response;
       break;

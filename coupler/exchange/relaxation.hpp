@@ -14,27 +14,39 @@
 // so that beds of light particles, and dense beds in windows longer than their particles' response, grow
 // without bound. Told the relaxed fluid q_told += omega (q - q_told) instead, q = u, grad p, Du/Dt,
 //
-//   omega = min(1, 1.2/(1 + G)),   G = 1.5 R_theta + y (1 + 4 (s - y)),   y = s (1 - theta),   R_theta = R
-//   theta theta = (1 - exp(-x))/x,  x = beta dt/(m + m_a)
+//   staggered    omega = min(1, 1.2/(1 + G))
+//   concurrent   omega = min(1, 1/(0.3 + 0.8 min(A, 2) + 3 G)),   A = K_eff dt/(eps rho)
+//
+//   G = 1.5 R_theta + y (1 + 0.3 y + 4 (s - y)),   y = s (1 - theta),   R_theta = R theta
+//   theta = (1 - exp(-x))/x,  x = beta dt/(m + m_a)
 //
 // no disturbance grows, neither in volume nor in shear: found for the linear map of one window, densities
-// 0.01 to 20 of the fluid's, eps_s up to 0.7, x 1e-3 to 1e4 (tests/unit/relaxation.cpp). A steady state is
-// not changed. Where G <= 0.2 (dilute or heavy particles) nothing is: omega = 1. docs/theory.md,
-// docs/decisions/relaxation.md.
+// 0.01 to 20 of the fluid's (concurrent: to 3000), eps_s up to 0.7 (0.6), x 1e-3 to 1e4, free particles and
+// held ones (tests/unit/relaxation.cpp). With a window of lag particles that outweigh the fluid and follow it
+// swing in shear too, hence A. A steady state is not changed, and nothing is where G and A are small.
+// docs/theory.md, docs/decisions/relaxation.md.
 
 #include <algorithm>
 
+#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 
 namespace demvof {
 
-/// omega, -, in (0, 1]. density: of the fluid in the bulk cell, kg/m3; fluid_volume: in it, m3.
-inline double relaxation_factor(const BulkParticles& particles, double density, double fluid_volume) {
+/// G, -: how strongly fluid and particles push each other about. density: of the fluid in the bulk cell,
+/// kg/m3; fluid_volume: in it, m3.
+inline double making_way_gain(const BulkParticles& particles, double density, double fluid_volume) {
   const double solid = particles.solid_volume / fluid_volume;                    // s
   const double inertial = density * particles.pressure_mobility / fluid_volume;  // R_theta
   const double following = particles.following_volume / fluid_volume;            // y
-  const double gain = 1.5 * inertial + following * (1 + 4 * std::max(solid - following, 0.0));
-  return std::min(1.0, 1.2 / (1 + gain));
+  return 1.5 * inertial + following * (1 + 0.3 * following + 4 * std::max(solid - following, 0.0));
+}
+
+/// omega, -, in (0, 1]. gain: G, 0 without porosity; response: A.
+inline double relaxation_factor(Schedule schedule, double gain, double response) {
+  const double least =
+      schedule == Schedule::staggered ? (1 + gain) / 1.2 : 0.3 + 0.8 * std::min(response, 2.0) + 3 * gain;
+  return std::min(1.0, 1 / least);
 }
 
 }  // namespace demvof

@@ -47,8 +47,7 @@ struct Cell {
     particles.drag_weighted_velocity.x = k * next[v] - other;
     particles.drag_response = held * drag_factor + (held < 1 ? drag_response(k, mass, window, 0, added) : 0);
     particles.response_weighted_velocity.x = particles.drag_response * now[u];
-    const FluidSource source =
-        fluid_source(ExchangeScheme::conservative_implicit, particles, particles.drag_response, window);
+    const FluidSource source = fluid_source(ExchangeScheme::conservative_implicit, particles, window);
     const double pull = source.explicit_force.x + source.coefficient * source.reference_velocity.x;
     next[u] = (now[u] + pull) / (1 + source.coefficient);
     next[m] = -source.coefficient * (source.reference_velocity.x - next[u]);
@@ -108,7 +107,7 @@ TEST(MomentumExchange, GivesTheFluidTheReactionToLiftAndAddedMass) {
       cell.drag_factor = cell.drag_response = beta;
       cell.drag_weighted_velocity.x = beta * particle - other;
       cell.response_weighted_velocity.x = beta * fluid;
-      const FluidSource source = fluid_source(scheme, cell, beta, window);
+      const FluidSource source = fluid_source(scheme, cell, window);
       const double force =
           source.explicit_force.x + source.coefficient * (source.reference_velocity.x - fluid);
       EXPECT_NEAR(force, -beta * (fluid - particle) - other, 1e-15);

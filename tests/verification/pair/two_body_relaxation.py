@@ -18,6 +18,7 @@ EDGE, DIAMETER = 0.01, 2e-3
 DENSITY, VISCOSITY = 1000.0, 1.0  # kg/m3, Pa s
 COUNT = 8
 SOLID = COUNT * math.pi / 6 * DIAMETER**3
+VOLUME_RATIO = SOLID / (EDGE**3 - SOLID)
 FLUID_MASS = DENSITY * (EDGE**3 - SOLID)
 DRAG_FACTOR = COUNT * 3 * math.pi * VISCOSITY * DIAMETER  # kg/s
 SCHEMES = ("explicit", "semi_implicit", "conservative_implicit")
@@ -26,32 +27,37 @@ HELD = {"free": 0.0, "half held": 0.5, "held": 1.0}
 
 
 class Map:
-    """One window for the state (u, v, m, j, felt): fluid, free particles, left-over, and of the particles' last
-    window drag impulse and fluid velocity felt. Masses over the fluid's, time over the window.
-    stiffness: K dt/(rho eps); loading: mass of all particles over the fluid's."""
+    """One window for the state (u, v, m, j, felt, told): fluid, free particles, left-over; of the particles' last
+    window drag impulse and fluid velocity felt; fluid velocity told for the coming one. Masses over the fluid's, time
+    over the window. stiffness: K dt/(rho eps); loading: mass of all particles over the fluid's."""
 
     def __init__(self, scheme, schedule, stiffness, loading, held):
         self.scheme, self.schedule, self.stiffness, self.held = scheme, schedule, stiffness, held
         self.mass = loading * (1 - held)
-        self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(5)]).T
+        free, free_volume = (1 - held) * stiffness, (1 - held) * VOLUME_RATIO
+        self.decay = -math.expm1(-free / self.mass) if free > 0 else 0
+        self.response = held * stiffness + self.mass * self.decay
+        # coupler/exchange/relaxation.hpp
+        theta = self.decay * self.mass / free if free > 0 else 1
+        inertial, following = theta * free_volume * VOLUME_RATIO / loading, (1 - theta) * free_volume
+        gain = 1.5 * inertial + following * (1 + 0.3 * following + 4 * max(VOLUME_RATIO - following, 0))
+        answer = self.response if scheme == "conservative_implicit" else 0
+        self.relaxation = min(1, 1.2 / (1 + gain) if schedule == "staggered" else 1 / (0.3 + 0.8 * min(answer, 2) + 3 * gain))
+        self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(6)]).T
 
     def window(self, now):
-        u, v, m, j, felt = now
+        u, v, m, j, felt, told = now
         free, held = (1 - self.held) * self.stiffness, self.held * self.stiffness
         push = (1 - self.held) * m
-        new_v, new_j, response = v, held * u, held
+        new_v, new_j, response = v, held * told, self.response
         if free > 0:
-            target = u + push / free
-            decay = -math.expm1(-free / self.mass)
-            new_v = v + (target - v) * decay
+            target = told + push / free
+            new_v = v + (target - v) * self.decay
             new_j += self.mass * (new_v - v) - push
-            response += self.mass * decay
         if self.schedule == "concurrent":
-            if response > 0.65:  # coupler/exchange/momentum_exchange.hpp
-                response = self.stiffness
             seen_j, seen_u, seen_v = j, felt, v
         else:
-            seen_j, seen_u, seen_v = new_j, u, new_v
+            seen_j, seen_u, seen_v = new_j, told, new_v
         if self.scheme == "explicit":
             new_u, new_m = u - seen_j, 0
         elif self.scheme == "semi_implicit":
@@ -59,7 +65,7 @@ class Map:
         else:
             new_u = (u - seen_j + response * seen_u) / (1 + response)
             new_m = response * (new_u - seen_u)
-        return [new_u, new_v, new_m, new_j, u]
+        return [new_u, new_v, new_m, new_j, told, told + self.relaxation * (new_u - told)]
 
     def growth(self):
         return abs(numpy.linalg.eigvals(self.matrix)).max()
@@ -67,15 +73,15 @@ class Map:
     def run(self, windows):
         """Fluid and free-particle velocity at the end of each window, in units of the start's."""
         # The first concurrent window of the fluid knows of no particles: nothing is paid, no drag pulls.
-        state, rows = numpy.array([1.0, 0, 0, 0, 0]), []
+        state, rows = numpy.array([1.0, 0, 0, 0, 0, 1.0]), []
         for n in range(windows):
             state = self.first() if n == 0 and self.schedule == "concurrent" else self.matrix @ state
             rows.append(state[:2])
         return numpy.array(rows)
 
     def first(self):
-        _, v, _, j, _ = self.window([1, 0, 0, 0, 1])
-        return numpy.array([1.0, v, 0, j, 1.0])
+        _, v, _, j, _, _ = self.window([1, 0, 0, 0, 1, 1])
+        return numpy.array([1.0, v, 0, j, 1.0, 1.0])
 
 
 def windows_of(mapping, wanted):
@@ -123,7 +129,7 @@ def run_through(demvof, schedule):
     length = 4 * EDGE
     case = BoxCase(scratch(f"two_body_relaxation/run_through_{schedule}"), (length, EDGE, EDGE), (16, 4, 4), (8, 2, 2),
                    0.04, 1e-3, sides={side: Cyclic() for side in SIDES}, gravity=(0, 0, 0), liquid=(DENSITY, 1e-4),
-                   velocity=(0.5, 0, 0), dem_step=2e-4,
+                   velocity=(0.5, 0, 0), dem_step=1e-5,
                    coupling={"schedule": schedule, "averaging": {"kernel": "centre"}})
     for i, place in enumerate(itertools.product(range(8), range(2), range(2))):
         case.particles.append(Particle([(k + 0.5) * EDGE / 2 for k in place], 1.5e-3, 2500 if i % 2 else 1200,

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Whether contacts hold the particles of a bulk cell. Each of them may touch others in every DEM step, and
+// all of them still move as one: then contacts cancel in the cell, and a change of the fluid's velocity moves
+// the bed as if its particles were free. A bed that rests on something gets from its contacts what fluid and
+// gravity ask for.
+//
+//   S = min(1, 4 |sum w c| / (|sum w d| + |sum w o|))
+//
+//   c, d, o   impulses of contacts, of drag (lift, added mass), of all else, in the window, N s
+//   K_eff     = free response + S (response by contacts - free response)
+//
+// With S = 1 everywhere a bed in contact that moves in a stiff liquid doubles its velocity in each window
+// (tests/verification/pair/moving_beds.py); with 0 one that is held swings
+// (tests/unit/exchange_stability.cpp). 4: a bed that the stream carries by four fifths still counts as held
+// by half, which is enough.
+
+#include <algorithm>
+
+#include "coupler/grid/vec3.hpp"
+
+namespace demvof {
+
+/// Of a particle, or of a bulk cell with the particles' weights.
+struct Support {
+  Vec3 contact, drag, others;  // impulses of the window, N s
+  double free_response = 0;    // beta_eff if no contact held it, kg/s
+};
+
+/// S, -, 0 to 1. 0 where nothing acts.
+inline double support_by_contacts(const Support& cell) {
+  constexpr double counts_as_held = 4;
+  const double asked = norm(cell.drag) + norm(cell.others);
+  return asked > 0 ? std::min(1.0, counts_as_held * norm(cell.contact) / asked) : 0;
+}
+
+}  // namespace demvof
