@@ -21,7 +21,7 @@
 //   theta = (1 - exp(-x))/x,  x = beta dt/(m + m_a)
 //
 // no disturbance grows, neither in volume nor in shear: found for the linear map of one window, densities
-// 0.01 to 20 of the fluid's (concurrent: to 3000), eps_s up to 0.7 (0.6), x 1e-3 to 1e4, free particles and
+// 0.01 to 20 of the fluid's (concurrent: to 1e4), eps_s up to 0.7 (0.6), x 1e-3 to 1e4, free particles and
 // held ones (tests/unit/relaxation.cpp). With a window of lag particles that outweigh the fluid and follow it
 // swing in shear too, hence A. A steady state is not changed, and nothing is where G and A are small.
 // docs/theory.md, docs/decisions/relaxation.md.

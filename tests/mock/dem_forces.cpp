@@ -302,10 +302,18 @@ TEST(DemForces, TellFrozenRestingAndFreeParticlesApart) {
   const double beta = bead_mass / relaxation;
   const auto particles = scene.dem->particles();
   const auto rows = forces.contributions();
+  const auto support = forces.support();
   for (int i = 0; i < particles.count; ++i) {
     const double x = particles.position[i][0];
     EXPECT_NEAR(rows[i].drag_factor / beta, 1, 1e-12);
     const double free_response = (1 - std::exp(-2.0)) / 2;  // window = 2 relaxation times
+    EXPECT_NEAR(support[i].free_response / beta, x < 0.03 ? 1 : free_response, 1e-9) << x;
+    const bool rests = x > 0.03 && x < 0.06;
+    EXPECT_EQ(support_by_contacts(support[i]), rests ? 1 : 0) << x;
+    if (rests) {  // nearly: it is still coming to rest
+      EXPECT_NEAR(norm(support[i].contact + support[i].drag + support[i].others), 0,
+                  0.2 * norm(support[i].contact));
+    }
     EXPECT_NEAR(rows[i].drag_response / beta, x < 0.06 ? 1 : free_response, 1e-9) << x;
     if (x < 0.03) {
       EXPECT_EQ(particles.position[i][2], 0.2);
