@@ -28,13 +28,16 @@ class Bed:
     """What is exact of one suspension. density: rho_p/rho; x: beta window/m; added: coefficient of the added mass."""
 
     def __init__(self, density, solid, x, touching=False):
-        """touching: side by side, pressed together by a 200th of a diameter across; solid then is 0.504."""
-        self.width, self.height = (0.995 * DIAMETER, 1.05 * DIAMETER) if touching else 2 * ((VOLUME / solid) ** (1 / 3),)
+        """touching: side by side, pressed together by 1e-7 of a diameter across (more, and the layers buckle); solid then
+        is 0.499."""
+        self.width, self.height = ((1 - 1e-7) * DIAMETER, 1.05 * DIAMETER) if touching else 2 * ((VOLUME / solid) ** (1 / 3),)
         solid = VOLUME / (self.width**2 * self.height)
         self.density, self.solid, self.x, self.touching = density, solid, x, touching
         self.steps = 100 if x >= 10 else 4  # of the DEM in a window; LIGGGHTS's first half step knows no fluid
         eps = 1 - solid
         self.window = float(f"{x * density * DENSITY * VOLUME / BETA:.6g}")
+        if touching:  # damping of contacts, 500/s, in explicit steps
+            self.steps = max(self.steps, math.ceil(self.window / 2e-4))
         drag = BETA * solid / VOLUME
         inertia = (density + solid / eps) * DENSITY  # of particles and fluid
         self.time = inertia * solid * eps**2 / drag
