@@ -91,7 +91,7 @@ const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& partic
   return deposited_;
 }
 
-const CellValues<BulkParticles>& Averaging::count_support(const std::vector<Support>& support) {
+void Averaging::count_support(const std::vector<Support>& support) {
   std::vector<Support> touched(weights_.cells.size());
   demvof::deposit(weights_, rows(support), row_width<Support>(), rows(touched));
   CellValues<Support> owned = touched_->sum_to_owners(touched);
@@ -105,7 +105,6 @@ const CellValues<BulkParticles>& Averaging::count_support(const std::vector<Supp
     cell.response_weighted_velocity *= response / cell.drag_response;
     cell.drag_response = response;
   }
-  return deposited_;
 }
 
 double Averaging::largest_solid_fraction() const {

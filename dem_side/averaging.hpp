@@ -41,7 +41,7 @@ class Averaging {
 
   /// Takes back from the responses of the last deposit what contacts that bear nothing stand for
   /// (support.hpp). support: one per local particle. Collective.
-  const CellValues<BulkParticles>& count_support(const std::vector<Support>& support);
+  void count_support(const std::vector<Support>& support);
 
   /// The fluid at each local particle of the last deposit. Collective. owned: this rank's cells of
   /// that deposit. Cells without fluid do not count in the mean; a particle that reaches no other

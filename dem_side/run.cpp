@@ -7,6 +7,7 @@
 
 #include "coupler/config/read_case.hpp"
 #include "coupler/config/stopwatch.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/handshake_items.hpp"
 #include "coupler/link/link.hpp"
@@ -112,7 +113,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     std::vector<BulkParticles> contributions = forces.contributions();
     if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
     averaging.deposit(dem.particles(), contributions);
-    averaging.count_support(forces.support());
+    if (hands_back_left_over(coupling.exchange)) averaging.count_support(forces.support());  // uses responses
   };
   deposit();
   Report report(dem);

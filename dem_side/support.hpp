@@ -12,9 +12,10 @@
 //   K_eff     = free response + S (response by contacts - free response)
 //
 // With S = 1 everywhere a bed in contact that moves in a stiff liquid doubles its velocity in each window
-// (tests/verification/pair/moving_beds.py); with 0 one that is held swings
-// (tests/unit/exchange_stability.cpp). 4: a bed that the stream carries by four fifths still counts as held
-// by half, which is enough.
+// (tests/verification/pair/moving_beds.py); with 0 one that is held swings (docs/theory.md). The 4: a bed of
+// which the stream carries three quarters still counts as held by more than half, and C above beta/2 keeps a
+// held one from swinging. Closer to lifting off it is not held any more; a bed taken through this in windows
+// up to K dt = 20 eps rho stayed on Ergun's line (docs/decisions/relaxation.md).
 
 #include <algorithm>
 

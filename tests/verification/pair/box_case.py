@@ -9,6 +9,7 @@
 
 SI units. Whatever is not set keeps the defaults below; `settings` and `coupling` go into the case file as they are.
 """
+import argparse
 import dataclasses
 import json
 import os
@@ -315,6 +316,14 @@ def side_means(folder, side, field):
     import numpy
     [file] = (pathlib.Path(folder) / "fluid" / "postProcessing" / f"{patch_name(side)}_{field}").glob("*/*.dat")
     return numpy.loadtxt(file, ndmin=2).T[:2]
+
+
+def command_line():
+    """Of a test that makes a record: demvof, the program to run, and long, whether the sweep is the long one."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("demvof")
+    parser.add_argument("--long", action="store_true")
+    return parser.parse_args()
 
 
 def scratch(name):

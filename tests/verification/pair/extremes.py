@@ -3,13 +3,12 @@
 
 Nothing is exact here but what always holds: the run goes to its end, the books close, alpha stays in [0, 1], and
 nobody gains energy, that of fluids and particles together falls. Usage: extremes.py DEMVOF [--long]"""
-import argparse
 import concurrent.futures
 import itertools
 import re
 
 import numpy
-from box_case import BoxCase, Open, Particle, SIDES, Slip, scratch
+from box_case import BoxCase, Open, Particle, SIDES, Slip, command_line, scratch
 from record import Record
 
 BASE = {"density": 2500.0, "gas": 1.0, "viscosity": 1e-6, "diameter": 3e-3, "window": 1e-3, "bulk": 6, "fine": 12,
@@ -103,11 +102,14 @@ def rise(run):
     return float((energy - energy[0]).max() / abs(energy[0]))
 
 
+def outside_bounds(run):
+    """How far alpha left [0, 1]: the run warns beyond 1e-8."""
+    said = [re.search(r"alpha left \[0, 1\] by up to (\S+):", line) for line in run.results["warnings"]]
+    return max((float(found[1]) for found in said if found), default=0.0)
+
+
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("demvof")
-    parser.add_argument("--long", action="store_true")
-    options = parser.parse_args()
+    options = command_line()
     record = Record(
         "extremes", "Extremes: beads in and over water",
         "Beads rest in water and fall into it from above while one thing at a time is driven to an extreme: their density "
@@ -124,6 +126,7 @@ def main():
     done = {name: run for name, run in held.items() if run}
     for books, bound in (("exchange", 1e-11), ("solid_volume", 1e-11), ("liquid_volume", 1e-11)):
         record.at_most(f"conservation.{books}, worst run", max(r.results["conservation"][books] for r in done.values()), bound)
+    record.at_most("alpha outside [0, 1] by, worst run", max(map(outside_bounds, done.values())), 1e-6)
     record.at_most("beads lost", sum(r.results["particles"]["lost"] for r in done.values()), 0)
     for name, run in runs.items():
         worst = rise(run) if run else float("nan")

@@ -6,11 +6,10 @@
     Wen and Yu (1966), for comparison:  Re_mf = sqrt(33.7^2 + 0.0408 Ar) - 33.7
 
 Usage: fluidisation.py DEMVOF [--long]"""
-import argparse
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Inlet, Outlet, Particle, particle_states, scratch, side_means
+from box_case import BoxCase, Cyclic, Inlet, Outlet, Particle, command_line, particle_states, scratch, side_means
 from record import Record
 
 DIAMETER, PARTICLE_DENSITY = 1e-3, 2500.0
@@ -97,10 +96,7 @@ def plateau_error(bed):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("demvof")
-    parser.add_argument("--long", action="store_true")
-    options = parser.parse_args()
+    options = command_line()
     record = Record(
         "fluidisation", "Minimum fluidisation of a bed in water",
         "Spheres of 1 mm and 2500 kg/m3 in a periodic column of water; the stream from below rises from rest to 1.5 "

@@ -8,13 +8,12 @@ Everything that goes down makes the fluid go up, eps u + eps_s v = 0, and with S
 
 Density ratio, solid fraction and stiffness x = beta window/m are varied over many decades; nothing moves far, so that
 the problem stays linear. Usage: moving_beds.py DEMVOF [--long]"""
-import argparse
 import concurrent.futures
 import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Particle, SIDES, Slip, particle_states, scratch
+from box_case import BoxCase, Cyclic, Particle, SIDES, Slip, command_line, particle_states, scratch
 from record import Record
 
 DIAMETER, DENSITY, VISCOSITY = 2e-3, 1000.0, 1.0  # m, kg/m3, Pa s
@@ -25,14 +24,14 @@ WINDOWS = 40
 
 
 class Bed:
-    """What is exact of one suspension. density: rho_p/rho; x: beta window/m; added: coefficient of the added mass."""
+    """What is exact of one suspension. density: rho_p/rho; x: beta window/m."""
 
     def __init__(self, density, solid, x, touching=False):
         """touching: side by side, pressed together by 1e-7 of a diameter across (more, and the layers buckle); solid then
         is 0.499."""
         self.width, self.height = ((1 - 1e-7) * DIAMETER, 1.05 * DIAMETER) if touching else 2 * ((VOLUME / solid) ** (1 / 3),)
         solid = VOLUME / (self.width**2 * self.height)
-        self.density, self.solid, self.x, self.touching = density, solid, x, touching
+        self.density, self.solid, self.x = density, solid, x
         self.steps = 100 if x >= 10 else 4  # of the DEM in a window; LIGGGHTS's first half step knows no fluid
         eps = 1 - solid
         self.window = float(f"{x * density * DENSITY * VOLUME / BETA:.6g}")
@@ -101,16 +100,13 @@ def sweep(long):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("demvof")
-    parser.add_argument("--long", action="store_true")
-    options = parser.parse_args()
+    options = command_line()
     record = Record(
         "moving_beds", "Beds that move: particles and fluid that make way for each other",
         "A suspension in a closed column starts to sink or to rise in Stokes drag, with the density of the particles from "
         "0.01 to 30 times that of the fluid, solid fractions up to 0.5 and windows from a hundredth of the particles' "
-        "response time to a thousand times it; in some runs all of them touch and move as one. The exact velocity is known. What the particles did in a window comes "
-        "back as pressure; without relaxation (theory.md) light and dense beds grow without bound.",
+        "response time to a thousand times it; in some runs all of them touch and move as one. The exact velocity is "
+        "known. What the particles did in a window comes back as pressure; without relaxation (theory.md) light and dense beds grow without bound.",
         "tests/Alltest --verification -- -R pair.moving_beds_long" if options.long else "tests/Alltest -- -R 'pair.moving_beds$'")
     beds = list(sweep(options.long))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:

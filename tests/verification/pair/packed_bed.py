@@ -4,13 +4,12 @@
     dp/dz = 150 mu (1 - eps)^2 U / (eps^3 d^2) + 1.75 rho (1 - eps) U^2 / (eps^3 d)     U: superficial velocity, m/s
 
 Usage: packed_bed.py DEMVOF [--long]"""
-import argparse
 import concurrent.futures
 import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Inlet, Outlet, Particle, Slip, scratch, side_means
+from box_case import BoxCase, Inlet, Outlet, Particle, Slip, command_line, scratch, side_means
 from record import Record
 
 DIAMETER, DENSITY, EPS = 1e-3, 1000.0, 0.48
@@ -48,10 +47,7 @@ def simulate(demvof, reynolds, stiffness, schedule):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("demvof")
-    parser.add_argument("--long", action="store_true")
-    options = parser.parse_args()
+    options = command_line()
     record = Record(
         "packed_bed", "Pressure drop of a packed bed",
         f"Flow through {PER_CELL**3 * CELLS} spheres held on a cubic lattice, void fraction {EPS}, from inlet to outlet; "

@@ -4,13 +4,12 @@
 A periodic box holds eight particles at rest; the fluid moves. In Stokes drag this is linear, and each exchange scheme is
 a small matrix from window to window (class Map). The real pair must follow it: its stability, its momentum, its
 equilibrium. Usage: two_body_relaxation.py DEMVOF [--long]"""
-import argparse
 import concurrent.futures
 import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Particle, SIDES, scratch
+from box_case import BoxCase, Cyclic, Particle, SIDES, command_line, scratch
 from record import Record
 
 SPEED = 1e-8       # of the fluid at the start, m/s: Re = 2e-8, drag is 3 pi mu d to 6 digits
@@ -155,10 +154,7 @@ def sweep(long):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("demvof")
-    parser.add_argument("--long", action="store_true")
-    options = parser.parse_args()
+    options = command_line()
     record = Record(
         "two_body_relaxation", "Fluid and particles coming to one velocity",
         "A real pair in one periodic bulk cell in the Stokes range: drag stiffness K dt/(rho eps), mass loading, "
