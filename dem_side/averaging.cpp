@@ -5,8 +5,8 @@
 #include <cassert>
 #include <utility>
 
-#include "coupler/config/read_case.hpp"
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
 
 namespace demvof {
 namespace {

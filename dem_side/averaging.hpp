@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/averaging_parameters.hpp"
 #include "coupler/transfer/diffusion.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "coupler/transfer/limit_solid.hpp"

@@ -7,15 +7,14 @@
 #include <cmath>
 
 #include "atom.h"
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/base/sphere.hpp"
 #include "fix_property_global.h"
 #include "lammps.h"
 #include "modify.h"
 
 namespace demvof {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 LAMMPS_NS::FixPropertyGlobal* property(LAMMPS_NS::LAMMPS& liggghts, const char* name, const char* kind,
                                        int rows, int columns) {
@@ -40,7 +39,7 @@ ContactTimes shortest_contact_times(LAMMPS_NS::LAMMPS& liggghts) {
       shortest[0] = std::min(shortest[0], pi * std::sqrt(0.5 * mass / stiffness->compute_array(type, other)));
     if (modulus && poisson) {
       const double nu = poisson->compute_vector(type), shear = modulus->compute_vector(type) / (2 * (1 + nu));
-      const double density = mass / (4.0 / 3.0 * pi * r * r * r);
+      const double density = mass / sphere_volume(r);
       shortest[1] = std::min(shortest[1], pi * r * std::sqrt(density / shear) / (0.1631 * nu + 0.8766));
     }
   }

@@ -12,9 +12,9 @@
 #include <limits>
 
 #include "atom.h"
-#include "coupler/config/read_case.hpp"
-#include "coupler/link/errors.hpp"
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/base/sphere.hpp"
 #include "dem_side/script_requirements.hpp"
 #include "domain.h"
 #include "fix_external.h"
@@ -216,8 +216,7 @@ ParticleCensus Dem::census() const {
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world_), "MPI_Allreduce");
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
   const long count = std::lround(sums[0]);
-  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1],
-          count ? -extremes[2] / (6 * 3.14159265358979323846) : 0};
+  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1], count ? -extremes[2] / (6 * pi) : 0};
 }
 
 bool Dem::inserts_particles() const {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 #include "dem_side/contact_times.hpp"
 #include "dem_side/particle_arrays.hpp"
 

@@ -6,11 +6,11 @@
 #include <cassert>
 #include <type_traits>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/closures/drag.hpp"
 #include "coupler/closures/lift.hpp"
 #include "coupler/closures/own_wake.hpp"
 #include "coupler/config/enum_names.hpp"
-#include "coupler/config/read_case.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {

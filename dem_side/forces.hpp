@@ -29,7 +29,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
+#include "coupler/closures/force_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/wake_width.hpp"
 #include "dem_side/dem.hpp"

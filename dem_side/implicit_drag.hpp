@@ -20,7 +20,7 @@
 
 #include <cmath>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/sphere.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 
@@ -19,10 +20,6 @@ struct ParticleArrays {
 
 inline Vec3 vec3(const double* components) {
   return {components[0], components[1], components[2]};
-}
-
-inline double sphere_volume(double radius) {
-  return 4.0 / 3.0 * 3.14159265358979323846 * radius * radius * radius;
 }
 
 }  // namespace demvof

@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/output/machine.hpp"
 
 namespace demvof {

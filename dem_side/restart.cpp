@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "coupler/config/read_case.hpp"
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/write_file.hpp"
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "coupler/base/stopwatch.hpp"
 #include "coupler/config/read_case.hpp"
-#include "coupler/config/stopwatch.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/handshake_items.hpp"

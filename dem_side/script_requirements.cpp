@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "atom.h"
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"

@@ -19,7 +19,7 @@
 
 #include <algorithm>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace demvof {
 

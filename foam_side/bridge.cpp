@@ -24,9 +24,9 @@
 #include <iterator>
 #include <utility>
 
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/exchange/relaxation.hpp"
-#include "coupler/link/errors.hpp"
-#include "coupler/link/mpi_check.hpp"
 #include "foam_side/cell_field.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "leastSquaresGrad.H"

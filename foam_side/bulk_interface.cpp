@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/base/sphere.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/fine_mesh.hpp"
@@ -63,7 +64,6 @@ Foam::vectorField Bridge::solid_flux_density() const {
 }
 
 scalarField Bridge::solid_fraction_of(const Vec3& position, double volume) const {
-  constexpr double pi = 3.14159265358979323846;
   const double radius = std::cbrt(3 * volume / (4 * pi));
   KernelWeights weights = kernel_weights(grid_, parameters_.coupling.averaging, {position}, {radius});
   const std::vector<CellId>& touched = remap_->cells().cells();
@@ -93,7 +93,7 @@ scalarField Bridge::void_fraction_before() const {
   Spread then;
   scalarField eps(void_fraction_of(solid_volume_before_, then));
   for (const Droplet& droplet : droplets_) {
-    const double volume = 4.0 / 3.0 * Foam::constant::mathematical::pi * std::pow(droplet.radius, 3);
+    const double volume = sphere_volume(droplet.radius);
     eps += droplet.sign * solid_fraction_of(droplet.position, volume);
   }
   return eps;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace demvof {
 

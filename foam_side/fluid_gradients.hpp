@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "coupler/config/parameters.hpp"
+#include "coupler/closures/force_parameters.hpp"
 #include "foam_side/flow.hpp"
 
 namespace demvof {

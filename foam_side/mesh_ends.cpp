@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "processorCyclicPolyPatch.H"
 

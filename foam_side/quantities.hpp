@@ -10,7 +10,7 @@ namespace demvof {
 
 using Quantities = std::map<std::string, double>;
 
-/// The fluid's part of known_quantities (coupler/output/quantities.hpp), over all ranks.
+/// The fluid's part of known_quantities (coupler/config/quantities.hpp), over all ranks.
 /// Collective over the fluid side.
 Quantities fluid_quantities(const Flow& flow);
 

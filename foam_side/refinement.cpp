@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/flow.hpp"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
+#include "coupler/base/sphere.hpp"
 #include "coupler/grid/bulk_cells.hpp"
-#include "coupler/link/errors.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/quantities.hpp"
 
@@ -41,9 +41,7 @@ class Exchange {
   Exchange(Flow& flow, const Droplet& droplet)
       : flow_(flow), droplet_(droplet), centre_(to_foam(droplet.position)) {}
 
-  double volume() const {
-    return 4.0 / 3.0 * Foam::constant::mathematical::pi * std::pow(droplet_.radius, 3);
-  }
+  double volume() const { return sphere_volume(droplet_.radius); }
   /// Step 1; returns the liquid that came with it, signed, m3.
   double fill(const scalarField& solid_fraction);
   /// Step 2; gas becomes liquid (amount > 0, m3), or liquid gas. Returns the coarsest cell's width, m.

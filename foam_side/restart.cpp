@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {

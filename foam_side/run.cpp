@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/base/stopwatch.hpp"
 #include "coupler/config/read_case.hpp"
-#include "coupler/config/stopwatch.hpp"
 #include "coupler/link/handshake_items.hpp"
-#include "coupler/link/mpi_check.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"

@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "coupler/config/quantities.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/output/machine.hpp"
-#include "coupler/output/quantities.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "foam_side/fine_mesh.hpp"
 

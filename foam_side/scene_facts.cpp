@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "localIOdictionary.H"
 #include "turbulenceModel.H"

@@ -8,11 +8,11 @@
 #include <exception>
 #include <functional>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/manual.hpp"
 #include "coupler/config/describe.hpp"
 #include "coupler/config/nearest.hpp"
-#include "coupler/config/read_case.hpp"
 #include "coupler/output/machine.hpp"
 
 namespace {

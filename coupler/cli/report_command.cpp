@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/python_script.hpp"
-#include "coupler/config/read_case.hpp"
 
 namespace demvof {
 

@@ -20,6 +20,8 @@
 
 #include <cmath>
 
+#include "coupler/base/sphere.hpp"
+
 namespace demvof {
 
 /// Where a law was fitted; -. Re is the superficial one above.
@@ -39,7 +41,7 @@ inline double superficial_reynolds(double diameter, double density, double visco
 
 /// 3 pi mu d, kg/s.
 inline double stokes_factor(double diameter, double viscosity) {
-  return 3 * 3.14159265358979323846 * viscosity * diameter;
+  return 3 * pi * viscosity * diameter;
 }
 
 /// Schiller and Naumann, Z. Ver. Dtsch. Ing. 77 (1935) 318, as in Pozzetti & Peters (2017), eq. 33:
@@ -55,7 +57,6 @@ inline double stokes_factor(double diameter, double viscosity) {
 constexpr DragRange schiller_naumann_range{2e5, 0.98, 1};
 inline double schiller_naumann(double diameter, double density, double viscosity, double slip,
                                double /*void_fraction*/ = 1) {
-  constexpr double pi = 3.14159265358979323846;
   const double inertia = density * slip * diameter;  // Re mu
   if (inertia < 1000 * viscosity)
     return stokes_factor(diameter, viscosity) * (1 + 0.15 * std::pow(inertia / viscosity, 0.687));

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/config/keys.hpp"
 #include "coupler/config/nearest.hpp"
-#include "coupler/config/read_case.hpp"
 
 namespace demvof {
 namespace {

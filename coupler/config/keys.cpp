@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "coupler/config/enum_names.hpp"
-#include "coupler/output/quantities.hpp"
+#include "coupler/config/quantities.hpp"
 
 namespace demvof {
 namespace {

@@ -6,10 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
+#include "coupler/closures/force_parameters.hpp"
+#include "coupler/exchange/crossing.hpp"
+#include "coupler/exchange/exchange_parameters.hpp"
+#include "coupler/transfer/averaging_parameters.hpp"
+#include "coupler/transfer/mapping_parameters.hpp"
 
 // Everything a case file can say, with its defaults. Nothing here knows YAML: read_case.cpp fills
-// these structs, the rest of the program only sees them. SI units throughout.
+// these structs, the rest of the program only sees them. What steers an algorithm stands beside it
+// (closures, exchange, transfer) and is only put together here. SI units throughout.
 
 namespace demvof {
 
@@ -40,26 +46,6 @@ struct BulkGridParameters {
   std::array<int, 3> cells{1, 1, 1};  // cells per direction
 };
 
-enum class Schedule { staggered, concurrent };
-enum class ExchangeScheme { explicit_drag, semi_implicit, conservative_implicit };  // YAML: explicit, ...
-enum class Kernel { centre, volume, linear, gaussian, diffusion };
-enum class Mapping { nearest, inverse_distance, cell_point, cell_point_face, conservative };
-enum class Sharing { volume, mass };
-enum class PhaseInterchange { porous, volume_adding, replacement, none };
-
-struct AveragingParameters {
-  Kernel kernel = Kernel::gaussian;
-  double width = 0;      // standard deviation of the Gaussian, m; 0: half a bulk cell
-  double bandwidth = 0;  // b of the diffusion kernel, m; 0: six of the largest particle diameters
-  double maximum_solid_fraction =
-      0.74;  // of a bulk cell; what is above moves to the neighbours and is counted
-};
-
-struct MappingParameters {
-  Mapping to_fine = Mapping::conservative;
-  Mapping to_bulk = Mapping::conservative;
-};
-
 struct CouplingParameters {
   double end_time = 0;  // s
   double window = 0;    // s; a multiple of the DEM time step
@@ -72,27 +58,6 @@ struct CouplingParameters {
   double interchange_speed = 0;  // replacement: slower impacts on the interface replace nothing, m/s
   double time_out = 600;         // s without a word from the partner before a side gives up
 };
-
-enum class DragLaw { none, schiller_naumann, gidaspow, di_felice, koch_hill, beetstra, rong };
-enum class OwnWake { none, oseen };
-
-enum class LiftLaw { none, saffman_mei };
-
-struct ForceParameters {
-  DragLaw drag = DragLaw::schiller_naumann;
-  bool pressure_gradient = true;
-  OwnWake own_wake = OwnWake::none;  // correction of the sampled velocity for the particle's own disturbance
-  bool viscous_stress = false;
-  double added_mass = 0;  // C_m, -: the particle moves C_m times its own volume of fluid with it
-  LiftLaw lift = LiftLaw::none;
-  bool capillary = false;
-  Vec3 constant;  // N on each particle, from outside
-};
-
-/// True when a force asks for derivatives of the fluid's velocity or for its surface (BulkFluidGradients).
-inline bool need_gradients(const ForceParameters& forces) {
-  return forces.viscous_stress || forces.added_mass > 0 || forces.lift != LiftLaw::none || forces.capillary;
-}
 
 /// For each decision of the scene plan: found from the scene (automatic), or forced.
 enum class Switch { automatic, on, off };

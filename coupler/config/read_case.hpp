@@ -2,18 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/config/parameters.hpp"
 
 namespace demvof {
-
-/// The user's input is wrong. what() names file, line, key, value and what is allowed. Exit code 2.
-struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Reads and checks a case file. overrides: "coupling.window=1e-4", applied on top, same checks.
 /// Throws InputError with every mistake found in the file, one per line.

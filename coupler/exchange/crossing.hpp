@@ -14,9 +14,16 @@
 
 #include <cmath>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
+
+enum class PhaseInterchange {
+  porous,
+  volume_adding,
+  replacement,
+  none
+};  // how particles cross the interface
 
 /// The interface in a bulk cell: sums over its fine cells, with their area |grad alpha| V as weight.
 /// All zero: the cell holds none.

@@ -27,7 +27,7 @@
 #include <cmath>
 #include <optional>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 

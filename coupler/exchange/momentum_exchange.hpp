@@ -20,7 +20,7 @@
 // Sources: Pozzetti & Peters 2017 (semi-implicit, after Xiao & Sun 2011); the conservative scheme
 // is this project's own, docs/theory.md.
 
-#include "coupler/config/parameters.hpp"
+#include "coupler/exchange/exchange_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 
 namespace demvof {

@@ -28,7 +28,7 @@
 
 #include <algorithm>
 
-#include "coupler/config/parameters.hpp"
+#include "coupler/exchange/exchange_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 
 namespace demvof {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
 
 namespace demvof {
 

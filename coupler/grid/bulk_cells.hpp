@@ -5,8 +5,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "coupler/base/vec3.hpp"
 #include "coupler/grid/bulk_grid.hpp"
-#include "coupler/grid/vec3.hpp"
 
 namespace demvof {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/link/link.hpp"
 
 namespace demvof {

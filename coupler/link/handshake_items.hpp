@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 #include "coupler/link/link.hpp"
 
 namespace demvof {

@@ -8,8 +8,8 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "coupler/config/read_case.hpp"
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 

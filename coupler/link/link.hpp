@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/grid/bulk_cells.hpp"
-#include "coupler/link/errors.hpp"
 #include "coupler/link/exchange_plan.hpp"
 #include "coupler/link/own_world.hpp"
 #include "coupler/link/patience.hpp"

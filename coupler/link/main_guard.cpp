@@ -6,8 +6,7 @@
 #include <exception>
 #include <string>
 
-#include "coupler/config/read_case.hpp"
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/run_stage.hpp"
 

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/link/pmpi.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"

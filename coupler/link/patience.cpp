@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/link/run_stage.hpp"
 
 namespace demvof {

@@ -7,7 +7,7 @@
 #include <exception>
 #include <string>
 
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace demvof {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
 
 namespace demvof {
 namespace {

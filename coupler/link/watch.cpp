@@ -7,7 +7,7 @@
 #include <signal.h>
 #include <time.h>
 
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/run_stage.hpp"
 

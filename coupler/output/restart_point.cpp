@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 #include "coupler/output/write_file.hpp"
 
 // What the series of vtk_series.hpp share; only their .cpp files include this.

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/base/vec3.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/bulk_grid.hpp"
-#include "coupler/grid/vec3.hpp"
 
 // Time series that ParaView opens: <folder>/<name>/<name>_<number>.vtp or .vti, and
 // <name>.pvd beside them, which lists them with their times and is replaced in one step at each

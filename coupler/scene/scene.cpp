@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/config/enum_names.hpp"
-#include "coupler/config/read_case.hpp"
 
 namespace demvof {
 namespace {

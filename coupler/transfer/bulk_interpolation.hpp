@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_grid.hpp"
 #include "coupler/grid/cell_block.hpp"
+#include "coupler/transfer/mapping_parameters.hpp"
 #include "coupler/transfer/pieces.hpp"
 
 namespace demvof {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_grid.hpp"
+#include "coupler/transfer/averaging_parameters.hpp"
 
 namespace demvof {
 

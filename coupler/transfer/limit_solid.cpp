@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/grid/touched_cells.hpp"
-#include "coupler/link/mpi_check.hpp"
 
 namespace demvof {
 namespace {

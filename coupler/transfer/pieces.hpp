@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_grid.hpp"
+#include "coupler/transfer/mapping_parameters.hpp"
 
 namespace demvof {
 

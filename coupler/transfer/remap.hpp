@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/cell_block.hpp"
 #include "coupler/grid/touched_cells.hpp"
 #include "coupler/transfer/bulk_interpolation.hpp"
 #include "coupler/transfer/limited_slopes.hpp"
+#include "coupler/transfer/mapping_parameters.hpp"
 #include "coupler/transfer/pieces.hpp"
 
 namespace demvof {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "coupler/base/sphere.hpp"
+
 namespace demvof {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// For 0 <= a, b, c and a^2 + b^2 + c^2 < 1.
 double beyond_inner_corner(double a, double b, double c) {

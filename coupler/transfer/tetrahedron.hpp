@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "coupler/grid/vec3.hpp"
+#include "coupler/base/vec3.hpp"
 
 namespace demvof {
 

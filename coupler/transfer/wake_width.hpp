@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "coupler/config/parameters.hpp"
 #include "coupler/grid/bulk_grid.hpp"
+#include "coupler/transfer/averaging_parameters.hpp"
 
 namespace demvof {
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "coupler/link/mpi_check.hpp"
+#include "coupler/base/mpi_check.hpp"
 
 namespace demvof::test {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/link.hpp"
 #include "coupler/link/main_guard.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "both_sides.hpp"
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "world_user.hpp"
 
 namespace demvof {

@@ -62,6 +62,23 @@ def solver_free_coupler(folder):
                         if SOLVER_INCLUDE.search(text) or OPENFOAM_OR_LIGGGHTS.search(text.split("//")[0]))
 
 
+LAYERS = [{"base"}, {"grid"}, {"closures", "transfer", "exchange"}, {"link"}, {"config"}, {"scene"}, {"output"}, {"cli"}]
+LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
+COUPLER_INCLUDE = re.compile(r'#\s*include\s*"coupler/(\w+)/')
+
+
+def layers(folder):
+    """The folders of the coupler are layers: each includes only those below it and itself."""
+    for path in files(folder):
+        parts = path.relative_to(folder).parts
+        if len(parts) < 3 or parts[0] != "coupler" or path.suffix not in {".cpp", ".hpp"}:
+            continue
+        for n, text in lines(path):
+            found = COUPLER_INCLUDE.match(text)
+            if found and found[1] != parts[1] and not LEVEL.get(found[1], 99) < LEVEL.get(parts[1], -1):
+                yield path, n, text
+
+
 def short_files(folder):
     """No source file beyond 400 lines."""
     for path in filter(is_code, files(folder)):
@@ -69,14 +86,15 @@ def short_files(folder):
             yield path, len(lines(path)), "longer than 400 lines"
 
 
-RULES = {rule.__name__: rule for rule in (machine_paths, licence_header, solver_free_coupler, short_files)}
+RULES = {rule.__name__: rule for rule in (machine_paths, licence_header, solver_free_coupler, layers, short_files)}
 
 
 def self_test():
     """Each rule finds its offence, and nothing in a clean file."""
     licence = "// SPDX-License-Identifier: GPL-3.0-or-later\n"
-    clean = licence + '#include "coupler/grid/vec3.hpp"\n#include <mpi.h>\nconst char* etc = "/usr/share/openfoam";\n'
+    clean = licence + '#include "coupler/base/vec3.hpp"\n#include <mpi.h>\nconst char* etc = "/usr/share/openfoam";\n'
     broken = {
+        "layers": licence + '#include "coupler/config/parameters.hpp"\n',
         "machine_paths": licence + 'const char* data = "/ho' + 'me/somebody/data";\n',
         "licence_header": "#include <mpi.h>\n",
         "solver_free_coupler": licence + '#include "fvMesh.H"\n',
@@ -84,8 +102,8 @@ def self_test():
     }
     for name, text in broken.items():
         with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder, "coupler", "a.cpp")
-            file.parent.mkdir()
+            file = pathlib.Path(folder, "coupler", "link", "a.cpp")
+            file.parent.mkdir(parents=True)
             file.write_text(clean)
             if list(RULES[name](pathlib.Path(folder))):
                 sys.exit(f"{name} finds an offence in a clean file")

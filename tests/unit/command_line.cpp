@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/cli/child_process.hpp"
 #include "coupler/cli/launch.hpp"
 #include "coupler/cli/progress_display.hpp"
 #include "coupler/cli/run_folder.hpp"
 #include "coupler/cli/summary.hpp"
-#include "coupler/config/read_case.hpp"
 
 namespace demvof {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace fs = std::filesystem;
 

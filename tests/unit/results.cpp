@@ -8,8 +8,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "coupler/config/quantities.hpp"
 #include "coupler/output/machine.hpp"
-#include "coupler/output/quantities.hpp"
 
 namespace fs = std::filesystem;
 

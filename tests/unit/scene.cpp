@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
 
 namespace demvof {

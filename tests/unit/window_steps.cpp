@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "coupler/config/read_case.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace {
 

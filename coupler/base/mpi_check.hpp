@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "coupler/link/errors.hpp"
+#include "coupler/base/errors.hpp"
 
 namespace demvof {
 

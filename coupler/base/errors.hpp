@@ -6,6 +6,10 @@
 
 namespace demvof {
 
+/// The user's input is wrong. what() names file, line, key, value and what is allowed. Exit code 2.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 /// The partner is gone (killed, failed, silent beyond the time-out). Exit code 4.
 struct PartnerLost : std::runtime_error {
   using std::runtime_error::runtime_error;
