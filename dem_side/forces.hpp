@@ -30,23 +30,13 @@
 #include <vector>
 
 #include "coupler/closures/force_parameters.hpp"
+#include "coupler/exchange/support.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/fluid_at_particle.hpp"
 #include "coupler/transfer/wake_width.hpp"
 #include "dem_side/dem.hpp"
-#include "dem_side/support.hpp"
 
 namespace demvof {
-
-/// The bulk fluid where a particle is, at the start of a window.
-struct FluidAtParticle {
-  Vec3 velocity;             // u, m/s
-  Vec3 pressure_gradient;    // Pa/m
-  double density = 0;        // rho, kg/m3; 0: there is no fluid here
-  double viscosity = 0;      // mu, Pa s
-  Vec3 left_over_rate;       // left-over impulse per drag factor, m
-  double void_fraction = 1;  // eps, -
-  BulkFluidGradients gradients = {};
-};
 
 /// What a particle carries through a window, from rank to rank: what it feels and what it received.
 /// All zero for a particle that came into being during the window: no fluid acts on it yet.

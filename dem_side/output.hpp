@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "coupler/output/vtk_series.hpp"
-#include "dem_side/averaging.hpp"
+#include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
 
@@ -20,6 +22,15 @@ struct ParticleArrays {
 
 inline Vec3 vec3(const double* components) {
   return {components[0], components[1], components[2]};
+}
+
+inline std::vector<Vec3> positions(const ParticleArrays& particles) {
+  std::vector<Vec3> result(particles.count);
+  for (int i = 0; i < particles.count; ++i) result[i] = vec3(particles.position[i]);
+  return result;
+}
+inline std::vector<double> radii(const ParticleArrays& particles) {
+  return {particles.radius, particles.radius + particles.count};
 }
 
 }  // namespace demvof

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dem_side/averaging.hpp"
+#include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
 

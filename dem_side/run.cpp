@@ -16,7 +16,7 @@
 #include "coupler/output/machine.hpp"
 #include "coupler/output/output_due.hpp"
 #include "coupler/output/restart_point.hpp"
-#include "dem_side/averaging.hpp"
+#include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
 #include "dem_side/output.hpp"
@@ -96,7 +96,10 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   run_stage().set("handshake");
   Link link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
-  averaging.deposit(dem.particles(), forces.contributions());
+  const auto deposit_at_their_places = [&](const std::vector<BulkParticles>& contributions) {
+    averaging.deposit(positions(dem.particles()), radii(dem.particles()), contributions);
+  };
+  deposit_at_their_places(forces.contributions());
   const auto fluid_facts = nlohmann::json::parse(
       link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
                      facts(dem, averaging, world)));
@@ -112,16 +115,19 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const auto deposit = [&] {
     std::vector<BulkParticles> contributions = forces.contributions();
     if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
-    averaging.deposit(dem.particles(), contributions);
-    if (hands_back_left_over(coupling.exchange)) averaging.count_support(forces.support());  // uses responses
+    deposit_at_their_places(contributions);
+    CellValues<BulkParticles> deposited = averaging.deposited();
+    if (hands_back_left_over(coupling.exchange))  // uses responses
+      count_support(averaging.deposit_records(forces.support()), deposited);
+    return deposited;
   };
-  deposit();
+  CellValues<BulkParticles> deposited = deposit();
   Report report(dem);
   survivor.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
   if (!start) output.write(0, coupling.window, forces, averaging, {});
   WallSeconds seconds;
-  link.send(averaging.deposited());
+  link.send(deposited);
   link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
 
   const long windows = std::lround(coupling.end_time / coupling.window);
@@ -146,9 +152,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     run_stage().set("end of the window", time);
     {
       const Stopwatch watch(seconds.averaging);
-      deposit();
+      deposited = deposit();
     }
-    link.send(averaging.deposited());
+    link.send(deposited);
     if (replacement) link.send(replacement->droplets(grid, link.mine()));
     seconds.exchange = link.statistics().exchange_seconds;
     seconds.waiting = link.statistics().waiting_seconds;

@@ -7,12 +7,9 @@
 #include <mpi.h>
 
 #include <functional>
-#include <memory>
 #include <vector>
 
-#include "coupler/grid/touched_cells.hpp"
-#include "coupler/transfer/diffusion.hpp"
-#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/averaging.hpp"
 #include "tests/support/record.hpp"
 
 namespace demvof::test {
@@ -36,44 +33,64 @@ inline AveragingParameters averaging(Kernel kernel, double bandwidth) {
   return parameters;
 }
 
-/// Deposit and sample as dem_side does both, particles dealt out to the ranks of comm in turn.
+/// Deposit and sample of one number per particle and cell with the class that dem_side uses, particles dealt
+/// out to the ranks of comm in turn. The number is a drag factor on the way to the bulk grid, a velocity
+/// back.
 class Averager {
  public:
   Averager(MPI_Comm comm, const BulkGrid& grid, const AveragingParameters& parameters, const Set& all)
-      : comm_(comm), grid_(grid), partition_(grid.cell_count(), size()), particles_(all.position.size()) {
+      : comm_(comm),
+        grid_(grid),
+        partition_(grid.cell_count(), size()),
+        particles_(static_cast<int>(all.position.size())),
+        averaging_(comm, grid, partition_, parameters) {
+    std::vector<BulkParticles> contributions;
     for (int i = rank(); i < particles_; i += size()) {
       mine_.add(all.position[i], all.radius[i], all.value[i]);
       number_.push_back(i);
+      contributions.emplace_back();
+      contributions.back().drag_factor = all.value[i];
     }
-    weights_ = kernel_weights(grid, parameters, mine_.position, mine_.radius);
-    touched_ = std::make_unique<TouchedCells>(comm, partition_, weights_.cells);
-    if (parameters.kernel == Kernel::diffusion)
-      diffusion_ = std::make_unique<Diffusion>(comm, grid, partition_, parameters.bandwidth);
+    averaging_.deposit(mine_.position, mine_.radius, contributions);
   }
   /// All cells, on every rank.
   std::vector<double> deposit() const {
-    std::vector<double> touched(weights_.cells.size());
-    demvof::deposit(weights_, mine_.value.data(), 1, touched.data());
-    CellValues<double> owned = touched_->sum_to_owners(touched);
-    if (diffusion_) owned = diffusion_->spread(owned);
+    const CellValues<BulkParticles>& owned = averaging_.deposited();
     std::vector<double> all(grid_.cell_count(), 0.0);
-    for (std::size_t i = 0; i < owned.cells.size(); ++i) all[owned.cells[i]] = owned.values[i];
+    for (std::size_t i = 0; i < owned.cells.size(); ++i) all[owned.cells[i]] = owned.values[i].drag_factor;
     return sum(all);
   }
   /// cells: all of them. All particles, on every rank.
-  std::vector<double> sample(const std::vector<double>& cells) const {
-    CellValues<double> owned;
+  std::vector<double> sample(const std::vector<double>& cells) {
+    return sampled(
+        cells, [](BulkFluid& fluid, BulkFluidGradients&, double value) { fluid.velocity.x = value; },
+        [](const FluidAtParticle& fluid) { return fluid.velocity.x; });
+  }
+  /// What particles with these values as drag factors receive of the impulses that cells owe them.
+  std::vector<double> hand_over(const std::vector<double>& owed) {
+    return sampled(
+        owed, [](BulkFluid& fluid, BulkFluidGradients&, double value) { fluid.left_over.x = value; },
+        [](const FluidAtParticle& fluid) { return fluid.left_over_rate.x; });
+  }
+  /// sample() by way of any member of what is told; put and get name it.
+  template <class Put, class Get>
+  std::vector<double> sampled(const std::vector<double>& cells, const Put& put, const Get& get) {
+    CellValues<BulkFluid> fluid;
+    CellValues<BulkFluidGradients> gradients;
     for (CellId cell = partition_.begin(rank()); cell < partition_.end(rank()); ++cell) {
-      owned.cells.push_back(cell);
-      owned.values.push_back(cells[cell]);
+      fluid.cells.push_back(cell);
+      fluid.values.emplace_back();
+      fluid.values.back().density = 1;
+      gradients.values.emplace_back();
+      put(fluid.values.back(), gradients.values.back(), cells[cell]);
     }
-    if (diffusion_) owned = diffusion_->gather(owned);
-    const std::vector<double> fetched = touched_->fetch_from_owners(owned, 0.0);
-    std::vector<double> sampled(number_.size()), all(particles_, 0.0);
-    demvof::sample(weights_, fetched.data(), 1, sampled.data());
-    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = sampled[i];
+    gradients.cells = fluid.cells;
+    const std::vector<FluidAtParticle> felt = averaging_.sample(fluid, &gradients);
+    std::vector<double> all(particles_, 0.0);
+    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = get(felt[i]);
     return sum(all);
   }
+  double unplaced_left_over() const { return averaging_.unplaced_left_over().x; }
 
  private:
   int rank() const {
@@ -97,9 +114,7 @@ class Averager {
   int particles_;
   Set mine_;
   std::vector<int> number_;
-  KernelWeights weights_;
-  std::unique_ptr<TouchedCells> touched_;
-  std::unique_ptr<Diffusion> diffusion_;
+  Averaging averaging_;
 };
 
 class AveragingKernels : public testing::Test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dem_side/averaging.hpp"
+#include "coupler/transfer/averaging.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -69,42 +69,19 @@ void Averaging::set_open_shares(CellValues<double> open_share) {
   if (diffusion_ && !all_open_) diffusion_->set_open_shares(open_share_);
 }
 
-const CellValues<BulkParticles>& Averaging::deposit(const ParticleArrays& particles,
+const CellValues<BulkParticles>& Averaging::deposit(const std::vector<Vec3>& positions,
+                                                    const std::vector<double>& radii,
                                                     const std::vector<BulkParticles>& contributions) {
-  std::vector<Vec3> positions(particles.count);
-  const std::vector<double> radii(particles.radius, particles.radius + particles.count);
-  outside_ = 0;
-  for (int i = 0; i < particles.count; ++i) {
-    positions[i] = vec3(particles.position[i]);
-    outside_ += beyond_a_wall(grid_, positions[i]);
-  }
+  outside_ = std::count_if(positions.begin(), positions.end(),
+                           [&](const Vec3& position) { return beyond_a_wall(grid_, position); });
   weights_ = kernel_weights(grid_, parameters_, positions, radii, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
   if (!all_open_) count_open_shares(touched_->fetch_from_owners(open_share_, 1.0), weights_);
 
-  std::vector<BulkParticles> touched(weights_.cells.size());
-  demvof::deposit(weights_, rows(contributions), row_width<BulkParticles>(), rows(touched));
-  deposited_ = touched_->sum_to_owners(touched);
-  if (diffusion_) deposited_ = diffusion_->spread(std::move(deposited_));
+  deposited_ = deposit_records(contributions);
   relief_ =
       limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, open_share_, deposited_);
   return deposited_;
-}
-
-void Averaging::count_support(const std::vector<Support>& support) {
-  std::vector<Support> touched(weights_.cells.size());
-  demvof::deposit(weights_, rows(support), row_width<Support>(), rows(touched));
-  CellValues<Support> owned = touched_->sum_to_owners(touched);
-  if (diffusion_) owned = diffusion_->spread(std::move(owned));
-  for (std::size_t i = 0; i < deposited_.cells.size(); ++i) {
-    const Support* here = find(owned, deposited_.cells[i]);
-    BulkParticles& cell = deposited_.values[i];
-    if (!here || !(cell.drag_response > here->free_response)) continue;
-    const double response =
-        here->free_response + support_by_contacts(*here) * (cell.drag_response - here->free_response);
-    cell.response_weighted_velocity *= response / cell.drag_response;
-    cell.drag_response = response;
-  }
 }
 
 double Averaging::largest_solid_fraction() const {
@@ -163,6 +140,7 @@ void Averaging::sample_gradients(const CellValues<BulkFluid>& owned,
   CellValues<GradientSample> offered{owned.cells, std::vector<GradientSample>(owned.cells.size())};
   for (std::size_t i = 0; i < owned.cells.size(); ++i)
     if (owned.values[i].density > 0) offered.values[i] = {1, gradients.values[i]};
+  if (diffusion_) offered = diffusion_->gather(std::move(offered));
   const std::vector<GradientSample> cells = touched_->fetch_from_owners(offered, GradientSample{});
   std::vector<GradientSample> means(weights_.particles());
   demvof::sample(weights_, rows(cells), row_width<GradientSample>(), rows(means));

@@ -20,6 +20,7 @@
 #include <algorithm>
 
 #include "coupler/base/vec3.hpp"
+#include "coupler/grid/bulk_cells.hpp"
 
 namespace demvof {
 
@@ -34,6 +35,19 @@ inline double support_by_contacts(const Support& cell) {
   constexpr double counts_as_held = 4;
   const double asked = norm(cell.drag) + norm(cell.others);
   return asked > 0 ? std::min(1.0, counts_as_held * norm(cell.contact) / asked) : 0;
+}
+
+/// Takes back from the responses what contacts that bear nothing stand for.
+inline void count_support(const CellValues<Support>& support, CellValues<BulkParticles>& particles) {
+  for (std::size_t i = 0; i < particles.cells.size(); ++i) {
+    const Support* here = find(support, particles.cells[i]);
+    BulkParticles& cell = particles.values[i];
+    if (!here || !(cell.drag_response > here->free_response)) continue;
+    const double response =
+        here->free_response + support_by_contacts(*here) * (cell.drag_response - here->free_response);
+    cell.response_weighted_velocity *= response / cell.drag_response;
+    cell.drag_response = response;
+  }
 }
 
 }  // namespace demvof

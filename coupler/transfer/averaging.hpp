@@ -10,10 +10,9 @@
 #include "coupler/grid/touched_cells.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
 #include "coupler/transfer/diffusion.hpp"
+#include "coupler/transfer/fluid_at_particle.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "coupler/transfer/limit_solid.hpp"
-#include "dem_side/forces.hpp"
-#include "dem_side/particle_arrays.hpp"
 
 namespace demvof {
 
@@ -35,13 +34,21 @@ class Averaging {
 
   /// Sums the particles' contributions into the bulk cells they reach; what is above the largest
   /// solid fraction of a cell moves to its neighbours. Collective.
-  /// contributions: one per local particle. Returned: this rank's cells.
-  const CellValues<BulkParticles>& deposit(const ParticleArrays& particles,
+  /// positions and radii (m), contributions: one per local particle. Returned: this rank's cells.
+  const CellValues<BulkParticles>& deposit(const std::vector<Vec3>& positions,
+                                           const std::vector<double>& radii,
                                            const std::vector<BulkParticles>& contributions);
 
-  /// Takes back from the responses of the last deposit what contacts that bear nothing stand for
-  /// (support.hpp). support: one per local particle. Collective.
-  void count_support(const std::vector<Support>& support);
+  /// Records of the local particles of the last deposit, summed into the bulk cells with its weights; nothing
+  /// moves out of full cells. Collective. Returned: this rank's cells.
+  template <class T>
+  CellValues<T> deposit_records(const std::vector<T>& records) const {
+    std::vector<T> touched(weights_.cells.size());
+    demvof::deposit(weights_, reinterpret_cast<const double*>(records.data()), row_width<T>(),
+                    reinterpret_cast<double*>(touched.data()));
+    CellValues<T> owned = touched_->sum_to_owners(touched);
+    return diffusion_ ? diffusion_->spread(std::move(owned)) : owned;
+  }
 
   /// The fluid at each local particle of the last deposit. Collective. owned: this rank's cells of
   /// that deposit. Cells without fluid do not count in the mean; a particle that reaches no other
