@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/output/machine.hpp"
@@ -32,18 +31,11 @@ void reduce(double* values, std::size_t bytes, MPI_Op operation, MPI_Comm world)
             "MPI_Allreduce");
 }
 
-nlohmann::json array(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-nlohmann::json closures(const FluidForces& forces, MPI_Comm world) {
-  nlohmann::json counts = nlohmann::json::object();
-  for (auto& [name, count] : forces.closures()) {
-    ClosureCount sum = count;
-    reduce(&sum.evaluations, sizeof(sum), MPI_SUM, world);
-    counts[name] = {{"evaluations", std::lround(sum.evaluations)}, {"outside", std::lround(sum.outside)}};
-  }
-  return counts;
+void count_closures(const FluidForces& forces, MPI_Comm world, ParticleReport& report) {
+  std::size_t next = 0;
+  for (const auto& [name, count] : forces.closures())
+    report.closures.at(next++) = {count.evaluations, count.outside};
+  reduce(&report.closures[0].evaluations, sizeof(report.closures), MPI_SUM, world);
 }
 
 }  // namespace
@@ -76,8 +68,8 @@ void Report::count_changes(long now) {
   count_ = now;
 }
 
-std::string Report::window(const FluidForces& forces, const Averaging& averaging, double replaced_volume,
-                           const WallSeconds& seconds) {
+ParticleReport Report::window(const FluidForces& forces, const Averaging& averaging, double replaced_volume,
+                              const WallSeconds& seconds) {
   const ParticleArrays particles = dem_.particles();
   const Vec3 gravity = dem_.gravity();
   constexpr double lowest = std::numeric_limits<double>::lowest();
@@ -110,45 +102,43 @@ std::string Report::window(const FluidForces& forces, const Averaging& averaging
   reduce(extremes.front, sizeof(Extremes), MPI_MAX, dem_.world());
   count_changes(std::lround(sums.count));
 
-  nlohmann::json report = {
-      {"count", count_},
-      {"inserted", inserted_},
-      {"left", left_},
-      {"lost", lost_},
-      {"waiting_for_fluid", std::lround(sums.waiting_for_fluid)},
-      {"outside_bulk_grid", std::lround(sums.outside_bulk_grid)},
-      {"mass", sums.mass},
-      {"solid_volume", sums.solid_volume},
-      {"solid_volume_bulk", sums.solid_volume_bulk},
-      {"replaced_volume", sums.replaced_volume},
-      {"kinetic_energy", sums.kinetic_energy},
-      {"potential_energy", sums.potential_energy},
-      {"max_speed", extremes.max_speed},
-      {"momentum", array(half_step_momentum(dem_))},
-      {"drag_impulse", array(sums.impulses.drag)},
-      {"drag_impulse_bulk", array(sums.drag_impulse_bulk)},
-      {"pressure_impulse", array(sums.impulses.pressure)},
-      {"left_over_given", array(sums.impulses.left_over)},
-      {"left_over_unplaced", array(sums.unplaced_left_over)},
-      {"stress_impulse", array(sums.impulses.stress)},
-      {"constant_impulse", array(sums.impulses.constant)},
-      {"contact_impulse", array(sums.impulses.contact)},
-      {"gravity_impulse", array(sums.impulses.gravity)},
-      {"held_impulse", array(sums.impulses.held)},
-      {"closures", closures(forces, dem_.world())},
-      {"relieved_cells", averaging.relief().cells},
-      {"relieved_volume", averaging.relief().volume},
-      {"unplaced_volume", averaging.relief().not_placed},
-      {"steps", forces.steps()},
-      {"seconds",
-       {{"dem", seconds.dem},
-        {"averaging", seconds.averaging},
-        {"exchange", seconds.exchange},
-        {"waiting", seconds.waiting}}},
-      {"peak_memory_bytes", sums.peak_memory_bytes},
-  };
-  if (count_ > 0) report["solid_front"] = extremes.front;
-  return report.dump();
+  ParticleReport report;
+  report.count = static_cast<double>(count_);
+  report.inserted = static_cast<double>(inserted_);
+  report.left = static_cast<double>(left_);
+  report.lost = static_cast<double>(lost_);
+  report.waiting_for_fluid = sums.waiting_for_fluid;
+  report.outside_bulk_grid = sums.outside_bulk_grid;
+  report.mass = sums.mass;
+  report.solid_volume = sums.solid_volume;
+  report.solid_volume_bulk = sums.solid_volume_bulk;
+  report.replaced_volume = sums.replaced_volume;
+  report.kinetic_energy = sums.kinetic_energy;
+  report.potential_energy = sums.potential_energy;
+  report.max_speed = extremes.max_speed;
+  report.solid_front = {extremes.front[0], extremes.front[1], extremes.front[2]};
+  report.momentum = half_step_momentum(dem_);
+  report.drag_impulse = sums.impulses.drag;
+  report.pressure_impulse = sums.impulses.pressure;
+  report.left_over_given = sums.impulses.left_over;
+  report.stress_impulse = sums.impulses.stress;
+  report.constant_impulse = sums.impulses.constant;
+  report.held_impulse = sums.impulses.held;
+  report.contact_impulse = sums.impulses.contact;
+  report.gravity_impulse = sums.impulses.gravity;
+  report.drag_impulse_bulk = sums.drag_impulse_bulk;
+  report.left_over_unplaced = sums.unplaced_left_over;
+  report.relieved_cells = static_cast<double>(averaging.relief().cells);
+  report.relieved_volume = averaging.relief().volume;
+  report.unplaced_volume = averaging.relief().not_placed;
+  report.steps = forces.steps();
+  report.dem_seconds = seconds.dem;
+  report.averaging_seconds = seconds.averaging;
+  report.exchange_seconds = seconds.exchange;
+  report.waiting_seconds = seconds.waiting;
+  report.peak_memory_bytes = sums.peak_memory_bytes;
+  count_closures(forces, dem_.world(), report);
+  return report;
 }
 
 }  // namespace demvof

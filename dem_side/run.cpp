@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/run.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -10,11 +9,10 @@
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/handshake_items.hpp"
-#include "coupler/link/link.hpp"
+#include "coupler/link/particle_end.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
-#include "coupler/output/output_due.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
@@ -39,7 +37,11 @@ const ParticleParameters& particle_parameters(const CaseParameters& parameters) 
       ": particles: not given or switched off, so dem_side has nothing to do; start foam_side alone");
 }
 
-std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& world) {
+std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& averaging,
+                  const OwnWorld& world) {
+  std::vector<std::string> closures;  // in the order of ParticleReport::closures
+  for (const auto& [name, count] : forces.closures()) closures.push_back(name);
+
   const ParticleCensus census = dem.census();
   const ContactTimes contacts = dem.contact_times();
   const Vec3 momentum = half_step_momentum(dem);
@@ -54,6 +56,7 @@ std::string facts(const Dem& dem, const Averaging& averaging, const OwnWorld& wo
                         {"rayleigh_time", contacts.rayleigh},
                         {"lightest_response", census.lightest_response},
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
+                        {"closures", closures},
                         {"momentum", {momentum.x, momentum.y, momentum.z}},
                         {"ranks", world.size()}}
       .dump();
@@ -72,7 +75,6 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     start = read_restart_point(options.out, parameters);
     if (world.rank() == 0) keep_earlier(options.out, "particles.log");
   }
-  const long windows_before = start ? start->window : 0;
   Survivor survivor(options, parameters, world);
 
   run_stage().set("particle script");
@@ -94,23 +96,23 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     forces.take_out_own_wake(WakeWidth(grid, averaged), dem.census().max_diameter);
 
   run_stage().set("handshake");
-  Link link(world, grid.cell_count(), coupling.time_out);
+  ParticleEnd link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
   const auto deposit_at_their_places = [&](const std::vector<BulkParticles>& contributions) {
     averaging.deposit(positions(dem.particles()), radii(dem.particles()), contributions);
   };
   deposit_at_their_places(forces.contributions());
-  const auto fluid_facts = nlohmann::json::parse(
-      link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
-                     facts(dem, averaging, world)));
-  if (!fluid_facts.value("two_fluids", false)) replacement.reset();  // there is no interface
+  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
+                 facts(dem, forces, averaging, world));
+  const WindowPlan& plan = link.receive_plan();
+  if (!plan.interface) replacement.reset();
   if (options.check) {
     link.close();
     return exit_done;
   }
 
   run_stage().set("first exchange");
-  averaging.set_open_shares(link.receive<double>());
+  averaging.set_open_shares(link.open_shares());
   double replaced_volume = 0;  // m3, of this rank
   const auto deposit = [&] {
     std::vector<BulkParticles> contributions = forces.contributions();
@@ -121,56 +123,51 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
       count_support(averaging.deposit_records(forces.support()), deposited);
     return deposited;
   };
-  CellValues<BulkParticles> deposited = deposit();
+  const CellValues<BulkParticles> deposited = deposit();
   Report report(dem);
   survivor.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
   if (!start) output.write(0, coupling.window, forces, averaging, {});
   WallSeconds seconds;
-  link.send(deposited);
-  link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
+  link.start(deposited, report.window(forces, averaging, replaced_volume, seconds));
 
-  const long windows = std::lround(coupling.end_time / coupling.window);
-  bool go_on = true;
-  for (long n = windows_before + 1; n <= windows && go_on; ++n) {
-    run_stage().set("exchange with the fluid", static_cast<double>(n - 1) * coupling.window);
-    const auto fluid = link.receive<BulkFluid>();  // at the start of this window, whatever the schedule
-    std::optional<CellValues<BulkFluidGradients>> gradients;
-    if (need_gradients(parameters.forces)) gradients = link.receive<BulkFluidGradients>();
+  while (link.next_window()) {
+    run_stage().set("exchange with the fluid", link.end_time() - coupling.window);
+    const FluidMessage fluid = link.fluid();
     {
       const Stopwatch watch(seconds.averaging);
-      forces.begin_window(averaging.sample(fluid, gradients ? &*gradients : nullptr), coupling.window);
+      forces.begin_window(averaging.sample(fluid.means, fluid.gradients ? &*fluid.gradients : nullptr),
+                          coupling.window);
     }
-    if (replacement)
-      replacement->begin_window(averaging.sample_records(link.receive<BulkInterface>()), coupling.window);
+    if (replacement) replacement->begin_window(averaging.sample_records(*fluid.interface), coupling.window);
     run_stage().set("DEM steps");
     {
       const Stopwatch watch(seconds.dem);
       dem.run(steps);
     }
-    const double time = static_cast<double>(n) * coupling.window;
+    const double time = link.end_time();
     run_stage().set("end of the window", time);
+    ParticleMessage done;
     {
       const Stopwatch watch(seconds.averaging);
-      deposited = deposit();
+      done.sums = deposit();
     }
-    link.send(deposited);
-    if (replacement) link.send(replacement->droplets(grid, link.mine()));
+    if (replacement) done.droplets = replacement->droplets(grid, link.mine());
+    link.send(done);
     seconds.exchange = link.statistics().exchange_seconds;
     seconds.waiting = link.statistics().waiting_seconds;
-    link.swap_text(report.window(forces, averaging, replaced_volume, seconds));
-    go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
+    link.close_window(report.window(forces, averaging, replaced_volume, seconds));
 
-    survivor.window(n - windows_before, (n - windows_before) * steps, report.count(), seconds.dem,
-                    seconds.waiting);
-    if (n < windows && go_on && !output_due(n, coupling.window, parameters.output.interval)) continue;
+    const long done_here = link.number() - plan.windows_before;
+    survivor.window(done_here, done_here * steps, report.count(), seconds.dem, seconds.waiting);
+    if (!link.writes()) continue;
     run_stage().set("output", time);
-    output.write(time, coupling.window, forces, averaging, fluid);
-    write_particle_restart(options.out, n, dem, steps);
-    link.swap_text("{}");  // both sides have written
+    output.write(time, coupling.window, forces, averaging, fluid.means);
+    write_particle_restart(options.out, link.number(), dem, steps);
+    link.both_have_written();
   }
   link.close();
-  return go_on ? exit_done : exit_failed;
+  return link.goes_on() ? exit_done : exit_failed;
 }
 
 }  // namespace demvof

@@ -94,7 +94,7 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
 }
 
 void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge, RunRecord& record,
-                        const json& particles) {
+                        const ParticleReport& particles) {
   const fs::path path = file_of_rank(run, window);
   try {
     std::ifstream stream(path, std::ios::binary);

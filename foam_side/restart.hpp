@@ -19,6 +19,6 @@ void write_fluid_restart(const std::filesystem::path& run, long window, const Fl
 /// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
 /// Throws InputError when a file is not there or not what was written.
 void read_fluid_restart(const std::filesystem::path& run, long window, Flow& flow, Bridge& bridge,
-                        RunRecord& record, const nlohmann::json& particles);
+                        RunRecord& record, const ParticleReport& particles);
 
 }  // namespace demvof

@@ -8,15 +8,15 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "coupler/base/mpi_check.hpp"
 #include "coupler/base/stopwatch.hpp"
 #include "coupler/config/read_case.hpp"
+#include "coupler/link/fluid_end.hpp"
 #include "coupler/link/handshake_items.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
-#include "coupler/output/output_due.hpp"
 #include "coupler/output/restart_point.hpp"
+#include "coupler/scene/plan_windows.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/fluid_case.hpp"
@@ -58,72 +58,63 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
 }
 
 /// The fields, and the state that the run can be continued from once the particles have written theirs.
-void write_state(const fs::path& run, const CaseParameters& parameters, long window, Flow& flow,
-                 const Bridge& bridge, const RunRecord& record, Link& link, const OwnWorld& world) {
+void write_state(const fs::path& run, const CaseParameters& parameters, Flow& flow, const Bridge& bridge,
+                 const RunRecord& record, FluidEnd& link, const OwnWorld& world) {
+  const long window = link.number();
   run_stage().set("field output", flow.time.value());
   flow.time.writeNow();
   write_fluid_restart(run, window, flow, parameters.forces, bridge, record);
-  check_mpi(MPI_Barrier(world.comm()), "MPI_Barrier");
-  link.swap_text("{}");  // both sides have written
+  link.both_have_written();
   if (world.rank() == 0)
     write_restart_point(run, {window, flow.time.value(), flow.time.timeName(), parameters.coupling.window,
                               parameters.bulk_grid->cells, world.size()});
 }
 
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
-                   const RestartPoint* start, const BulkGrid& grid, Link& link, const OwnWorld& world,
+                   const RestartPoint* start, const BulkGrid& grid, FluidEnd& link, const OwnWorld& world,
                    RunRecord& record) {
-  const double window = parameters.coupling.window, end_time = parameters.coupling.end_time;
-  const long windows = std::lround(end_time / window), windows_before = start ? start->window : 0;
+  const double end_time = parameters.coupling.end_time;
   FluidSeconds seconds;
 
   run_stage().set("first void fraction");
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
-  link.send(bridge.open_shares());
-  bridge.take(link.receive<BulkParticles>());
-  const json particles = json::parse(link.swap_text("{}"));
+  FluidEnd::Start first = link.start(bridge.open_shares());
+  bridge.take(std::move(first.particles));
   if (start) {
-    read_fluid_restart(options.out, start->window, flow, bridge, record, particles);
+    read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
   } else {
     if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
     if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
     if (pressure_says_nothing(flow)) balance_pressure(flow);
-    record.start(flow, particles);
+    record.start(flow, &first.report);
     flow.time.writeNow();
   }
-  flow.time.setEndTime(end_time + window);  // the windows end the run, not controlDict
+  flow.time.setEndTime(end_time + link.plan().window);  // the windows end the run, not controlDict
   flow.time.write_when_told();
 
-  const bool concurrent = parameters.coupling.schedule == Schedule::concurrent;
-  const bool replaces = flow.scene.interchange == PhaseInterchange::replacement;
+  const bool replaces = link.plan().interface;
   ReplacementBooks replacement;
   std::vector<Droplet> droplets;
   const auto solid_fraction_of = [&bridge](const Vec3& position, double volume) {
     return bridge.solid_fraction_of(position, volume);
   };
-  const auto take_particles = [&] {
-    CellValues<BulkParticles> particles = link.receive<BulkParticles>();
-    if (replaces) droplets = on_every_rank(link.receive<Droplet>().values);
+  const auto fluid_message = [&] {
     const Stopwatch watch(seconds.mapping);
-    bridge.take(std::move(particles));
+    FluidMessage fluid;
+    fluid.means = bridge.bulk_fluid();
+    if (link.plan().gradients) fluid.gradients = bridge.bulk_fluid_gradients();
+    if (replaces) fluid.interface = bridge.bulk_interface();
+    return fluid;
   };
-
-  bool go_on = true;
-  for (long n = windows_before + 1; n <= windows && go_on; ++n) {
-    run_stage().set("exchange with the particles", flow.time.value());
-    {
-      const Stopwatch watch(seconds.mapping);
-      link.send(bridge.bulk_fluid());
-      if (need_gradients(parameters.forces)) link.send(bridge.bulk_fluid_gradients());
-      if (replaces) link.send(bridge.bulk_interface());
-    }
-    if (concurrent)
-      link.deliver();  // the particles do this window now, the fluid with what they did in the last
-    else
-      take_particles();  // they have done this window
+  const auto take = [&](ParticleMessage particles) {
+    if (replaces) droplets = on_every_rank(particles.droplets->values);
+    const Stopwatch watch(seconds.mapping);
+    bridge.take(std::move(particles.sums));
+  };
+  const auto advance = [&] {
     {
       const Stopwatch watch(seconds.fluid);
-      begin_window(flow, static_cast<double>(n) * window);
+      begin_window(flow, link.end_time());
       replace_particles(flow, droplets, solid_fraction_of, replacement);
       bridge.note(droplets);
       bridge.spread_sources();  // the flux is fitted to the new window with its drag
@@ -134,37 +125,39 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     }
     run_stage().set("end of the window", flow.time.value());
     bridge.end_window();
-    if (concurrent) take_particles();  // for the fluid's next window
+  };
+
+  while (link.next_window()) {
+    run_stage().set("exchange with the particles", flow.time.value());
+    link.window(fluid_message(), advance, take);
     RunRecord::Window done;
-    done.number = n;
-    done.planned = windows;
-    done.explicit_impulse = bridge.impulses().explicit_part;
-    done.implicit_impulse = bridge.impulses().implicit_part;
-    if (flow.porosity) done.fine_solid_volume = bridge.spread().solid_volume;
+    done.number = link.number();
+    done.planned = link.plan().windows;
+    done.fluid.explicit_impulse = bridge.impulses().explicit_part;
+    done.fluid.implicit_impulse = bridge.impulses().implicit_part;
+    if (flow.porosity) done.fluid.fine_solid_volume = bridge.spread().solid_volume;
     done.negative_cells = bridge.spread().negative_cells;
     if (replaces) done.replacement = replacement;
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.relaxation = bridge.relaxed().smallest;
     done.relaxed_cells = bridge.relaxed().cells;
-    done.particles = json::parse(link.swap_text("{}"));
-    go_on = link.agree_to_continue(stop_requested() ? Continue::stop_requested : Continue::run);
+    done.particles = link.close_window();
     seconds.waiting = link.statistics().waiting_seconds;
     seconds.exchange = link.statistics().exchange_seconds;
     done.seconds = seconds;
     done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
     done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
     record.window(flow, done, end_time);
-    if (n == windows || !go_on || output_due(n, window, parameters.output.interval))
-      write_state(options.out, parameters, n, flow, bridge, record, link, world);
+    if (link.writes()) write_state(options.out, parameters, flow, bridge, record, link, world);
   }
-  return go_on ? RunStatus::completed : RunStatus::interrupted;
+  return link.goes_on() ? RunStatus::completed : RunStatus::interrupted;
 }
 
 /// Plain VOF: steps and output times as in controlDict, like interFoam, to the case file's end time.
 RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& record) {
   if (parameters.coupling.end_time > 0) flow.time.setEndTime(parameters.coupling.end_time);
   FluidSeconds seconds;
-  record.start(flow, json());
+  record.start(flow, nullptr);
   bool go_on = true;
   for (long n = 1; go_on; ++n) {
     {
@@ -240,7 +233,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const Foam::argList& args = *open_case(options.out / "fluid", world);
   SceneFacts facts = fluid_facts(args);
 
-  std::optional<Link> link;
+  std::optional<FluidEnd> link;
   std::optional<BulkGrid> grid;
   json particles;
   if (paired) {
@@ -256,6 +249,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   }
   const Scene scene =
       plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
+  if (link) link->send_plan(plan_windows(parameters, scene, start ? start->window : 0));
 
   run_stage().set("reading the fluid case");
   Foam::instant from;

@@ -9,7 +9,6 @@
 
 #include "coupler/config/quantities.hpp"
 #include "coupler/config/read_case.hpp"
-#include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "foam_side/fine_mesh.hpp"
@@ -23,14 +22,6 @@ using nlohmann::json;
 
 double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
-}
-
-void count_closure(RunResults& results, const std::string& name, const json& count) {
-  auto& uses = results.closures;
-  auto use = std::find_if(uses.begin(), uses.end(), [&](const auto& other) { return other.name == name; });
-  if (use == uses.end()) use = uses.insert(use, {name, 0, 0});
-  use->evaluations += count.at("evaluations").get<long>();
-  use->outside += count.at("outside").get<long>();
 }
 
 Vec3 vec3(const json& array) {
@@ -86,6 +77,7 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
   results.scene = scene.decisions;
   if (!particles.is_null()) {
     results.particles.initial = results.particles.final = particles.at("particle_count");
+    for (const auto& name : particles.at("closures")) results.closures.push_back({name, 0, 0});
     const BulkGridParameters& grid = *parameters.bulk_grid;
     results.cells.bulk = static_cast<long>(BulkGrid(grid.lower, grid.upper, grid.cells).cell_count());
   }
@@ -100,10 +92,11 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
 
 RunRecord::~RunRecord() = default;
 
-void RunRecord::start(const Flow& flow, const json& particles) {
+void RunRecord::start(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = fluid_quantities(flow);
-  ledger_.emplace(particles.is_null() ? Vec3{} : vec3(particles.at("momentum")), Vec3{},
-                  quantities.at("liquid_volume"));
+  books_.emplace(parameters_.coupling.exchange, parameters_.coupling.schedule,
+                 particles ? particles->momentum : Vec3{},
+                 Books::State{{}, {}, quantities.at("liquid_volume")});
   initial_potential_ = quantities.at("potential_energy");
   open_history(flow, {});
   write_row(flow, particles);
@@ -118,10 +111,10 @@ void RunRecord::open_history(const Flow& flow, std::optional<double> continued_f
   history_ = std::make_unique<History>(out_ / "history.csv", columns, continued_from);
 }
 
-void RunRecord::go_on(const Flow& flow, const json& particles, long windows, const json& books) {
-  pending_ = vec3(books.at("pending"));
-  unplaced_ = vec3(books.at("unplaced"));
-  ledger_.emplace(vec3(particles.at("momentum")), Vec3{}, books.at("liquid_volume"), pending_);
+void RunRecord::go_on(const Flow& flow, const ParticleReport& particles, long windows, const json& books) {
+  books_.emplace(
+      parameters_.coupling.exchange, parameters_.coupling.schedule, particles.momentum,
+      Books::State{vec3(books.at("pending")), vec3(books.at("unplaced")), books.at("liquid_volume")});
   initial_potential_ = books.at("initial_potential");
   next_row_ = books.at("next_row");
   last_row_ = flow.time.value();
@@ -134,62 +127,34 @@ void RunRecord::go_on(const Flow& flow, const json& particles, long windows, con
 
 json RunRecord::books() const {
   const auto array = [](const Vec3& v) { return json{v.x, v.y, v.z}; };
-  return {{"pending", array(pending_)},
-          {"unplaced", array(unplaced_)},
-          {"liquid_volume", ledger_->liquid_volume()},
+  const Books::State state = books_->state();
+  return {{"pending", array(state.pending)},
+          {"unplaced", array(state.unplaced)},
+          {"liquid_volume", state.liquid_volume},
           {"initial_potential", initial_potential_},
           {"next_row", next_row_}};
 }
 
-/// Enters a window into the ledger. Momentum is that of the particles: drag, left-over, pressure,
-/// contacts and gravity must add up to its change (docs/outputs.md says what this covers).
-void RunRecord::close_books(const Window& window, double liquid_volume) {
-  WindowBalance balance;
-  balance.liquid_volume = liquid_volume;
-  if (!window.particles.is_null()) {
-    const json& p = window.particles;
-    const CouplingParameters& coupling = parameters_.coupling;
-    const long came = p.at("inserted"), gone = p.at("left").get<long>() + p.at("lost").get<long>();
-    const bool some_went = gone != gone_;
-    balance.particles_changed = some_went || came != came_;
-    came_ = came;
-    gone_ = gone;
-    const Vec3 drag_felt = vec3(p.at("drag_impulse")), left_over_given = vec3(p.at("left_over_given"));
-    balance.drag_to_particles = some_went ? vec3(p.at("drag_impulse_bulk")) : drag_felt;
-    balance.left_over_to_particles = left_over_given;
-    balance.explicit_to_fluid = window.explicit_impulse;
-    balance.implicit_to_fluid = window.implicit_impulse;
-    unplaced_ += vec3(p.at("left_over_unplaced"));
-    if (hands_back_left_over(coupling.exchange)) balance.pending = unplaced_ - window.implicit_impulse;
-    if (coupling.schedule == Schedule::concurrent && pays_drag_impulse(coupling.exchange))
-      balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
-    // The fluid gets the drag of those that are still there. What one that left received in its last window,
-    // and what it was still owed, has gone with it.
-    if (some_went) {
-      balance.left_over_to_particles = pending_ - balance.pending - balance.drag_to_particles -
-                                       balance.explicit_to_fluid - balance.implicit_to_fluid;
-      limits_.gone_impulse += norm(drag_felt - balance.drag_to_particles) +
-                              norm(balance.left_over_to_particles - left_over_given);
-    }
-    balance.particle_momentum = vec3(p.at("momentum"));
-    balance.external = drag_felt + left_over_given + vec3(p.at("pressure_impulse")) +
-                       vec3(p.at("stress_impulse")) + vec3(p.at("constant_impulse")) +
-                       vec3(p.at("contact_impulse")) + vec3(p.at("gravity_impulse")) -
-                       vec3(p.at("held_impulse")) + (balance.pending - pending_);
-    pending_ = balance.pending;
-    balance.bulk_solid_volume = p.at("solid_volume_bulk");
-    balance.particle_volume = p.at("solid_volume").get<double>() - p.at("replaced_volume").get<double>();
-    // With the concurrent schedule the mesh has the particles of the window before.
-    if (!(balance.particles_changed && coupling.schedule == Schedule::concurrent))
-      balance.fine_solid_volume = window.fine_solid_volume;
+void RunRecord::enter(RunResults& results, const ParticleReport& particles) {
+  results.wall_seconds.particles = particles.dem_seconds;
+  results.wall_seconds.exchange += particles.averaging_seconds + particles.exchange_seconds;
+  results.wall_seconds.waiting += particles.waiting_seconds;
+  results.peak_memory_bytes.particles = static_cast<std::int64_t>(particles.peak_memory_bytes);
+  results.particles.final = std::lround(particles.count);
+  results.particles.inserted = std::lround(particles.inserted);
+  results.particles.left = std::lround(particles.left);
+  results.particles.lost = std::lround(particles.lost);
+  results.steps.particles += std::lround(particles.steps);
+  for (std::size_t i = 0; i < results.closures.size(); ++i) {
+    results.closures[i].evaluations += std::lround(particles.closures.at(i).evaluations);
+    results.closures[i].outside += std::lround(particles.closures.at(i).outside);
   }
-  if (window.replacement) {
-    balance.liquid_in = window.replacement->liquid() - replaced_liquid_;
-    replaced_liquid_ = window.replacement->liquid();
-  }
-  ledger_->close(balance);
-  const ConservationErrors& worst = ledger_->worst();
-  shared_->results.conservation = {worst.exchange, worst.momentum, worst.solid_volume, worst.liquid_volume};
+  limits_.relieved_cells += std::lround(particles.relieved_cells);
+  limits_.relieved_volume += particles.relieved_volume;
+  limits_.unplaced_volume = std::max(limits_.unplaced_volume, particles.unplaced_volume);
+  limits_.waiting_particles += std::lround(particles.waiting_for_fluid);
+  limits_.unplaced_left_over += norm(particles.left_over_unplaced);
+  last_particles_ = particles;
 }
 
 void RunRecord::window(const Flow& flow, const Window& window, double end_time) {
@@ -217,41 +182,31 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
     results.wall_seconds.exchange = window.seconds.mapping + window.seconds.exchange;
     results.wall_seconds.waiting = window.seconds.waiting;
     results.exchanged = {window.exchanged_bytes, window.exchanged_cells};
-    if (!window.particles.is_null()) {
-      const json& p = window.particles;
-      const auto& s = p.at("seconds");
-      results.wall_seconds.particles = s.at("dem");
-      results.wall_seconds.exchange += s.at("averaging").get<double>() + s.at("exchange").get<double>();
-      results.wall_seconds.waiting += s.at("waiting").get<double>();
-      results.peak_memory_bytes.particles =
-          static_cast<std::int64_t>(p.at("peak_memory_bytes").get<double>());
-      results.particles.final = p.at("count");
-      results.particles.inserted = p.at("inserted");
-      results.particles.left = p.at("left");
-      results.particles.lost = p.at("lost");
-      results.steps.particles += p.at("steps").get<long>();
-      for (const auto& [name, count] : p.at("closures").items()) count_closure(results, name, count);
-      limits_.relieved_cells += p.at("relieved_cells").get<long>();
-      limits_.relieved_volume += p.at("relieved_volume").get<double>();
-      limits_.unplaced_volume = std::max(limits_.unplaced_volume, p.at("unplaced_volume").get<double>());
-      limits_.waiting_particles += p.at("waiting_for_fluid").get<long>();
+    if (window.particles) {
+      enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
-      limits_.unplaced_left_over += norm(vec3(p.at("left_over_unplaced")));
-      last_particles_ = p;
     }
-    close_books(window, liquid);
+    FluidReport fluid = window.fluid;
+    fluid.liquid_volume = liquid;
     if (window.replacement) {
       const ReplacementBooks& books = *window.replacement;
+      fluid.replaced_liquid = books.liquid();
       results.replacement = {books.became_liquid,      books.took_place_back,    books.liquid_in,
                              books.liquid_out,         books.worst_volume_error, books.impulse,
                              books.worst_impulse_error};
     }
+    if (window.particles)
+      books_->window(fluid, *window.particles);
+    else
+      books_->window(fluid);
+    const ConservationErrors& worst = books_->worst();
+    results.conservation = {worst.exchange, worst.momentum, worst.solid_volume, worst.liquid_volume};
     if (window.replacement) limits_.drop_resolution = window.replacement->worst_resolution;
     limits_.crossing_windows += crosses;
   }
   const double time = flow.time.value();
   if (time > next_row_ - 0.5 * flow.time.deltaTValue() || time >= end_time) {
-    write_row(flow, window.particles);
+    write_row(flow, window.particles ? &*window.particles : nullptr);
     next_row_ += parameters_.output.history_interval;
     if (parameters_.output.history_interval <= 0) next_row_ = time;
   }
@@ -267,26 +222,25 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
   progress_.update(progress);
 }
 
-Quantities RunRecord::all_quantities(const Flow& flow, const json& particles) const {
+Quantities RunRecord::all_quantities(const Flow& flow, const ParticleReport* particles) const {
   Quantities q = fluid_quantities(flow);
   q["kinetic_energy_ratio"] = initial_potential_ > 0 ? q["kinetic_energy"] / initial_potential_ : 0;
   q["mechanical_energy"] = q["kinetic_energy"] + q["potential_energy"];
   add_vector(q, "fluid_momentum", fluid_momentum(flow));
-  if (particles.is_null()) return q;
-  q["particles"] = particles.at("count");
-  q["particle_kinetic_energy"] = particles.at("kinetic_energy");
-  add_vector(q, "particle_momentum", vec3(particles.at("momentum")));
-  add_vector(q, "pending_momentum", pending_);
+  if (!particles) return q;
+  q["particles"] = particles->count;
+  q["particle_kinetic_energy"] = particles->kinetic_energy;
+  add_vector(q, "particle_momentum", particles->momentum);
+  add_vector(q, "pending_momentum", books_->pending());
   // dem_side counts potential energy from the origin, the fluid from the lowest corner of its mesh.
   q["particle_potential_energy"] =
-      particles.at("potential_energy").get<double>() +
-      particles.at("mass").get<double>() * (flow.g.value() & lowest_corner(flow));
-  if (particles.contains("solid_front")) q["solid_front"] = particles.at("solid_front").at(0);
+      particles->potential_energy + particles->mass * (flow.g.value() & lowest_corner(flow));
+  if (particles->count > 0) q["solid_front"] = particles->solid_front.x;
   q["mechanical_energy"] += q["particle_kinetic_energy"] + q["particle_potential_energy"];
   return q;
 }
 
-void RunRecord::write_row(const Flow& flow, const json& particles) {
+void RunRecord::write_row(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = all_quantities(flow, particles);
   last_row_ = flow.time.value();
   if (!writes_) return;
@@ -326,9 +280,9 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));
-  if (limits_.gone_impulse > 0)
+  if (books_->gone_impulse() > 0)
     lines.push_back(fmt::format("impulse of {:.3g} N s went with particles in the window in which they left",
-                                limits_.gone_impulse));
+                                books_->gone_impulse()));
   if (limits_.drop_resolution < drop_resolution * (1 - 1e-6))
     lines.push_back(fmt::format(
         "particles became liquid with {:.3g} fine cells per diameter: replacement needs {} for the shape "
@@ -350,7 +304,7 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
 }
 
 void RunRecord::finish(const Flow& flow, RunStatus status) {
-  if (flow.time.value() > last_row_) write_row(flow, last_particles_);
+  if (flow.time.value() > last_row_) write_row(flow, last_particles_ ? &*last_particles_ : nullptr);
   if (!writes_) return;
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   shared_->results.status = status;

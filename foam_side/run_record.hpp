@@ -12,7 +12,7 @@
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/config/program_options.hpp"
-#include "coupler/exchange/ledger.hpp"
+#include "coupler/exchange/books.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/output/history.hpp"
 #include "coupler/output/progress.hpp"
@@ -40,25 +40,24 @@ class RunRecord {
             const nlohmann::json& particles, int rank, int ranks);
   ~RunRecord();
 
-  /// The state before the first step. particles: dem_side's report of it; null without particles.
-  void start(const Flow& flow, const nlohmann::json& particles);
+  /// The state before the first step. particles: dem_side's report of it; nullptr without particles.
+  void start(const Flow& flow, const ParticleReport* particles);
 
   /// The same for a run that goes on. windows: done before; books: of an earlier RunRecord at that time.
   /// Moves what that has written about the whole run to the folder `earlier`.
-  void go_on(const Flow& flow, const nlohmann::json& particles, long windows, const nlohmann::json& books);
+  void go_on(const Flow& flow, const ParticleReport& particles, long windows, const nlohmann::json& books);
   nlohmann::json books() const;
 
   /// One window (with particles) or time step (without).
   struct Window {
-    long number = 0, planned = 0;             // planned 0: not known
-    Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
-    long active_cells = 0;                    // of the bulk grid
-    std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
-    double relaxation = 1;                    // smallest relaxation factor of what the particles were told
-    long relaxed_cells = 0;                   // bulk cells with a factor below 1
-    long negative_cells = 0;                  // fine cells whose solid fraction was interpolated below 0
+    long number = 0, planned = 0;  // planned 0: not known
+    FluidReport fluid;             // liquid excepted: it is looked up
+    long active_cells = 0;         // of the bulk grid
+    double relaxation = 1;         // smallest relaxation factor of what the particles were told
+    long relaxed_cells = 0;        // bulk cells with a factor below 1
+    long negative_cells = 0;       // fine cells whose solid fraction was interpolated below 0
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
-    nlohmann::json particles;                     // dem_side's report; null without particles
+    std::optional<ParticleReport> particles;      // not without particles
     FluidSeconds seconds;
     std::int64_t exchanged_bytes = 0, exchanged_cells = 0;
   };
@@ -70,9 +69,9 @@ class RunRecord {
  private:
   struct Shared;  // results as the last words need them, whichever thread speaks them
   void open_history(const Flow& flow, std::optional<double> continued_from);
-  void close_books(const Window& window, double liquid_volume);
-  Quantities all_quantities(const Flow& flow, const nlohmann::json& particles) const;
-  void write_row(const Flow& flow, const nlohmann::json& particles);
+  void enter(RunResults& results, const ParticleReport& particles);
+  Quantities all_quantities(const Flow& flow, const ParticleReport* particles) const;
+  void write_row(const Flow& flow, const ParticleReport* particles);
   std::vector<std::string> warnings(const Flow& flow) const;
 
   std::filesystem::path out_;
@@ -81,23 +80,19 @@ class RunRecord {
   std::shared_ptr<Shared> shared_;
   std::unique_ptr<History> history_;
   ProgressFile progress_;
-  std::optional<Ledger> ledger_;
+  std::optional<Books> books_;
   long windows_before_ = 0;       // of the run that this one continues
   double initial_potential_ = 0;  // J
-  double replaced_liquid_ = 0;    // in place of particles, at the end of the last window, m3
-  Vec3 pending_;                  // received by one side, not yet by the other, N s
-  Vec3 unplaced_;                 // of this, what found no particle at all
-  long came_ = 0, gone_ = 0;      // particles inserted; left and lost; up to the last window
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
-  nlohmann::json last_particles_;
+  std::optional<ParticleReport> last_particles_;
 
   /// Limits that acted, over the windows so far.
   struct Limits {
     long relieved_cells = 0, waiting_particles = 0, negative_cells = 0, crossing_windows = 0;
     double drop_resolution = 1e9;                     // fewest cells per diameter
     double relieved_volume = 0, unplaced_volume = 0;  // m3
-    double unplaced_left_over = 0, gone_impulse = 0;  // N s
+    double unplaced_left_over = 0;                    // N s
   } limits_;
 };
 

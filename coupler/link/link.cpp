@@ -16,7 +16,7 @@
 namespace demvof {
 namespace {
 
-constexpr int tag_rows = 1, tag_text = 2;
+constexpr int tag_rows = 1, tag_text = 2, tag_record = 3;
 constexpr std::size_t header_words = 2;  // of a message with rows: row width, number of cells
 constexpr std::uint64_t word = sizeof(std::uint64_t);
 
@@ -160,15 +160,36 @@ std::string Link::swap_text(const std::string& mine) {
   return {reinterpret_cast<const char*>(message.data() + 1), message[0]};
 }
 
+void Link::send_bytes(const void* bytes, std::size_t size) {
+  finish_sends();
+  if (world_.rank() != 0) return;
+  Words message((size + word - 1) / word);
+  std::memcpy(message.data(), bytes, size);
+  post(0, tag_record, std::move(message));
+}
+
+void Link::receive_bytes(void* bytes, std::size_t size) {
+  finish_sends();
+  if (world_.rank() == 0) {
+    const Words message = take(0, tag_record, "a report");
+    if (message.size() != (size + word - 1) / word)
+      throw std::logic_error("Link::receive_record: the partner sent another kind of record");
+    std::memcpy(bytes, message.data(), size);
+  }
+  broadcast(bytes, size);
+}
+
+void Link::broadcast(void* bytes, std::size_t size) {
+  MPI_Request request;
+  check_mpi(MPI_Ibcast(bytes, static_cast<int>(size), MPI_BYTE, 0, world_.comm(), &request), "MPI_Ibcast");
+  wait_for(request, "rank 0 of this program");
+}
+
 std::string Link::from_rank_0(std::string text) {
   auto length = static_cast<std::uint64_t>(text.size());
-  MPI_Request request;
-  check_mpi(MPI_Ibcast(&length, 1, MPI_UINT64_T, 0, world_.comm(), &request), "MPI_Ibcast");
-  wait_for(request, "rank 0 of this program");
+  broadcast(&length, sizeof(length));
   text.resize(length);
-  check_mpi(MPI_Ibcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, world_.comm(), &request),
-            "MPI_Ibcast");
-  wait_for(request, "rank 0 of this program");
+  broadcast(text.data(), length);
   return text;
 }
 

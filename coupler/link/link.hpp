@@ -5,6 +5,7 @@
 #include <cstring>
 #include <list>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "coupler/base/errors.hpp"
@@ -75,15 +76,32 @@ class Link {
     return received;
   }
 
+  /// One record of rank 0 for all ranks of the partner.
+  template <class T>
+  void send_record(const T& record) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    send_bytes(&record, sizeof(T));
+  }
+  template <class T>
+  T receive_record() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T record;
+    receive_bytes(&record, sizeof(T));
+    return record;
+  }
+
   /// Both sides swap a text at the same point of the loop: rank 0's counts, the partner's is returned
   /// on all ranks.
   std::string swap_text(const std::string& mine);
 
   /// Called by both sides at the end of a window: true when both want to run on. A stop asked for
   /// on any rank of either side (signal) ends both after the same window.
-  bool agree_to_continue(Continue wish);
+  bool agree_to_continue(Continue wish = Continue::run);
   /// What the last agreement came to: the gravest wish of all ranks of both sides.
   Continue agreement() const { return agreement_; }
+
+  /// Returns when every rank of both sides has called it. why: what a rank waits for.
+  void meet(const char* why);
 
   /// Tells every partner rank that this side fails, without waiting for an answer, from any rank.
   void cry_for_help(const std::string& reason) noexcept { world_.cry_for_help(reason); }
@@ -101,8 +119,10 @@ class Link {
   Words take(int from, int tag, const char* what);
   void finish_sends();
   void wait_for(MPI_Request& request, const char* what);
+  void send_bytes(const void* bytes, std::size_t size);
+  void receive_bytes(void* bytes, std::size_t size);
+  void broadcast(void* bytes, std::size_t size);
   std::string from_rank_0(std::string text);
-  void meet(const char* why);
   void meet_before_the_end();
 
   const OwnWorld& world_;

@@ -15,10 +15,11 @@
 
 #include "coupler/config/read_case.hpp"
 #include "coupler/link/failure.hpp"
+#include "coupler/link/fluid_end.hpp"
 #include "coupler/link/handshake_items.hpp"
 #include "coupler/link/main_guard.hpp"
 #include "coupler/output/machine.hpp"
-#include "coupler/output/output_due.hpp"
+#include "coupler/scene/plan_windows.hpp"
 
 namespace {
 
@@ -34,7 +35,6 @@ struct Options {
   double terminal_tolerance = 1e-3;
   std::string bulk_file;      // the last deposit, as text, one file per rank
   long killed_in_window = 0;  // by kill -9
-  bool print = false;
 };
 
 Vec3 vec3(const json& array) {
@@ -88,65 +88,59 @@ void write_bulk(const std::string& file, const CellValues<BulkParticles>& partic
 
 int play(const Options& options, OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file);
-  const double window = parameters.coupling.window;
   const BulkGrid grid(parameters.bulk_grid->lower, parameters.bulk_grid->upper, parameters.bulk_grid->cells);
-  Link link(world, grid.cell_count(), parameters.coupling.time_out);
+  FluidEnd link(world, grid.cell_count(), parameters.coupling.time_out);
   const json facts = json::parse(link.handshake(
       handshake_items(version(), configuration_hash(parameters), {0, 0, -options.gravity}), "{}"));
-  if (options.print) fmt::print("{}\n", facts.dump());
+  link.send_plan(plan_windows(parameters, Scene{}, 0));
   if (options.check) {
     link.close();
     return exit_done;
   }
 
   const double solid_volume = facts.at("solid_volume");
-  link.send(CellValues<double>{});  // water fills all bulk cells
-  CellValues<BulkParticles> particles = link.receive<BulkParticles>();
+  const FluidEnd::Start start = link.start({});  // water fills all bulk cells
+  CellValues<BulkParticles> particles = start.particles;
   expect_near(total(particles, world).solid_volume, solid_volume, 1e-12 * solid_volume,
               "solid volume on the bulk grid", 0);
   expect_near(total(particles, world).drag_impulse, {}, 0, "drag impulse before the first window", 0);
 
-  json report = json::parse(link.swap_text("{}"));
+  ParticleReport report = start.report;
   Vec3 momentum = vec3(facts.at("momentum"));
-  const long windows = std::lround(parameters.coupling.end_time / window);
-  bool go_on = true;
-  for (long n = 1; n <= windows && go_on; ++n) {
-    CellValues<BulkFluid> fluid = still_water(particles.cells, options);
+  const double window = link.plan().window;
+  while (link.next_window()) {
+    const long n = link.number();
+    FluidMessage fluid{still_water(particles.cells, options), {}, {}};
     Vec3 left_over;
-    for (std::size_t i = 0; i < fluid.cells.size(); ++i)
+    for (std::size_t i = 0; i < particles.cells.size(); ++i)
       if (particles.values[i].drag_factor > 0) {  // as with K_eff: nothing is left over without drag
-        fluid.values[i].left_over = {0, 0, -options.left_over};
-        left_over += fluid.values[i].left_over;
+        fluid.means.values[i].left_over = {0, 0, -options.left_over};
+        left_over += fluid.means.values[i].left_over;
       }
     MPI_Allreduce(MPI_IN_PLACE, &left_over, 3, MPI_DOUBLE, MPI_SUM, world.comm());
-    link.send(fluid);
     if (n == options.killed_in_window) std::raise(SIGKILL);
-    particles = link.receive<BulkParticles>();
-    report = json::parse(link.swap_text("{}"));
-    go_on = link.agree_to_continue(Continue::run);
-    if (n == windows || !go_on || output_due(n, window, parameters.output.interval))
-      link.swap_text("{}");  // the particles have written
-    if (options.print && (n <= 2 || n == windows)) fmt::print("{}\n", report.dump());
+    link.window(
+        fluid, [] {}, [&](ParticleMessage message) { particles = std::move(message.sums); });
+    report = link.close_window();
+    if (link.writes()) link.both_have_written();
 
-    const double solid = report.at("solid_volume"), mass = report.at("mass");
+    const double solid = report.solid_volume, mass = report.mass;
     const double scale = mass * options.gravity * window;  // of impulses
-    expect_near(report.at("solid_volume_bulk"), solid, 1e-12 * solid, "solid volume on the bulk grid", n);
+    expect_near(report.solid_volume_bulk, solid, 1e-12 * solid, "solid volume on the bulk grid", n);
     expect_near(total(particles, world).solid_volume, solid, 1e-12 * solid, "solid volume received", n);
-    expect_near(total(particles, world).drag_impulse, vec3(report.at("drag_impulse")), 1e-12 * scale,
-                "drag impulse", n);
-    expect_near(vec3(report.at("left_over_given")), left_over, 1e-12 * scale, "left-over impulse", n);
-    expect(report.at("lost") == 0, fmt::format("window {}: {} particles lost", n, report.at("lost").dump()));
+    expect_near(total(particles, world).drag_impulse, report.drag_impulse, 1e-12 * scale, "drag impulse", n);
+    expect_near(report.left_over_given, left_over, 1e-12 * scale, "left-over impulse", n);
+    expect(report.lost == 0, fmt::format("window {}: {} particles lost", n, report.lost));
 
-    const Vec3 change = vec3(report.at("momentum")) - momentum;
-    const Vec3 booked = vec3(report.at("drag_impulse")) + vec3(report.at("pressure_impulse")) +
-                        vec3(report.at("left_over_given")) + vec3(report.at("contact_impulse")) +
-                        vec3(report.at("gravity_impulse")) - vec3(report.at("held_impulse"));
-    momentum = vec3(report.at("momentum"));
+    const Vec3 change = report.momentum - momentum;
+    const Vec3 booked = report.drag_impulse + report.pressure_impulse + report.left_over_given +
+                        report.contact_impulse + report.gravity_impulse - report.held_impulse;
+    momentum = report.momentum;
     expect_near(change, booked, 1e-12 * (scale + norm(momentum)), "change of momentum", n);
   }
   if (options.terminal_velocity > 0)
-    expect_near(vec3(report.at("momentum")).z / report.at("mass").get<double>(), -options.terminal_velocity,
-                options.terminal_tolerance * options.terminal_velocity, "velocity at the end", windows);
+    expect_near(report.momentum.z / report.mass, -options.terminal_velocity,
+                options.terminal_tolerance * options.terminal_velocity, "velocity at the end", link.number());
   if (!options.bulk_file.empty())
     write_bulk(fmt::format("{}.{}", options.bulk_file, world.rank()), particles);
   link.close();
@@ -165,7 +159,6 @@ int main(int argc, char** argv) {
   app.add_option("--terminal-velocity", options.terminal_velocity);
   app.add_option("--bulk-file", options.bulk_file);
   app.add_option("--killed-in-window", options.killed_in_window);
-  app.add_flag("--print", options.print);
   CLI11_PARSE(app, argc, argv);
   OwnWorld world(argc, argv, Side::fluid);
   return guarded_main(world, [&] { return play(options, world); });

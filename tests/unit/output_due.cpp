@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coupler/output/output_due.hpp"
+#include "coupler/link/output_due.hpp"
 
 #include <gtest/gtest.h>
 

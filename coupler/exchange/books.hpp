@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Makes a ledger's entry (ledger.hpp) of what the two sides report about a window.
+
+#include <optional>
+
+#include "coupler/exchange/ledger.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
+#include "coupler/exchange/particle_report.hpp"
+
+namespace demvof {
+
+/// What the fluid side reports about a window; sums over all cells and ranks.
+struct FluidReport {
+  Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
+  std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
+  double liquid_volume = 0;                 // at the end of the window, m3
+  double replaced_liquid = 0;               // in place of particles since the start of the run, m3
+};
+
+class Books {
+ public:
+  /// What lives from one run to the one that continues it.
+  struct State {
+    Vec3 pending;              // received by one side, not yet by the other, N s
+    Vec3 unplaced;             // of this, what found no particle at all
+    double liquid_volume = 0;  // what there should be, m3
+  };
+  Books(ExchangeScheme scheme, Schedule schedule, const Vec3& particle_momentum, const State& state)
+      : scheme_(scheme),
+        schedule_(schedule),
+        pending_(state.pending),
+        unplaced_(state.unplaced),
+        ledger_(particle_momentum, {}, state.liquid_volume, state.pending) {}
+  State state() const { return {pending_, unplaced_, ledger_.liquid_volume()}; }
+
+  /// Enters a window of a run without particles.
+  void window(const FluidReport& fluid) { enter(fluid, {}); }
+
+  /// Enters a window. Momentum is that of the particles: drag, left-over, pressure, contacts and gravity must
+  /// add up to its change (docs/outputs.md says what this covers).
+  void window(const FluidReport& fluid, const ParticleReport& particles) {
+    WindowBalance balance;
+    const bool some_went = particles.left + particles.lost != gone_;
+    balance.particles_changed = some_went || particles.inserted != came_;
+    came_ = particles.inserted;
+    gone_ = particles.left + particles.lost;
+    balance.drag_to_particles = some_went ? particles.drag_impulse_bulk : particles.drag_impulse;
+    balance.left_over_to_particles = particles.left_over_given;
+    balance.explicit_to_fluid = fluid.explicit_impulse;
+    balance.implicit_to_fluid = fluid.implicit_impulse;
+    unplaced_ += particles.left_over_unplaced;
+    if (hands_back_left_over(scheme_)) balance.pending = unplaced_ - fluid.implicit_impulse;
+    if (schedule_ == Schedule::concurrent && pays_drag_impulse(scheme_))
+      balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
+    // The fluid gets the drag of those that are still there. What one that left received in its last window,
+    // and what it was still owed, has gone with it.
+    if (some_went) {
+      balance.left_over_to_particles = pending_ - balance.pending - balance.drag_to_particles -
+                                       balance.explicit_to_fluid - balance.implicit_to_fluid;
+      gone_impulse_ += norm(particles.drag_impulse - balance.drag_to_particles) +
+                       norm(balance.left_over_to_particles - particles.left_over_given);
+    }
+    balance.particle_momentum = particles.momentum;
+    balance.external = particles.drag_impulse + particles.left_over_given + particles.pressure_impulse +
+                       particles.stress_impulse + particles.constant_impulse + particles.contact_impulse +
+                       particles.gravity_impulse - particles.held_impulse + (balance.pending - pending_);
+    pending_ = balance.pending;
+    balance.bulk_solid_volume = particles.solid_volume_bulk;
+    balance.particle_volume = particles.solid_volume - particles.replaced_volume;
+    // With the concurrent schedule the mesh has the particles of the window before.
+    if (!(balance.particles_changed && schedule_ == Schedule::concurrent))
+      balance.fine_solid_volume = fluid.fine_solid_volume;
+    enter(fluid, balance);
+  }
+
+  /// Largest of each error so far.
+  const ConservationErrors& worst() const { return ledger_.worst(); }
+  const Vec3& pending() const { return pending_; }
+  /// Impulse that went with particles in the windows in which they left, N s.
+  double gone_impulse() const { return gone_impulse_; }
+
+ private:
+  void enter(const FluidReport& fluid, WindowBalance balance) {
+    balance.liquid_volume = fluid.liquid_volume;
+    balance.liquid_in = fluid.replaced_liquid - replaced_liquid_;
+    replaced_liquid_ = fluid.replaced_liquid;
+    ledger_.close(balance);
+  }
+
+  ExchangeScheme scheme_;
+  Schedule schedule_;
+  Vec3 pending_, unplaced_;
+  double came_ = 0, gone_ = 0;  // particles inserted; left and lost; up to the last window
+  double replaced_liquid_ = 0;  // m3
+  double gone_impulse_ = 0;
+  Ledger ledger_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+#include "coupler/exchange/particle_report.hpp"
+#include "coupler/link/pair_end.hpp"
+
+namespace demvof {
+
+/// The fluid's end of the pair: its part of every message of a run, in their order.
+class FluidEnd : public PairEnd {
+ public:
+  using PairEnd::PairEnd;
+
+  /// After the handshake: the particles hear what they have to send and to expect.
+  void send_plan(const WindowPlan& plan);
+
+  /// open_shares: the mesh's share in those bulk cells of this rank that it does not fill. Returned: the
+  /// particles before the first window.
+  struct Start {
+    CellValues<BulkParticles> particles;
+    ParticleReport report;
+  };
+  Start start(const CellValues<double>& open_shares);
+
+  /// One window: tells the particles the fluid, lets the fluid advance and takes what the particles did, in
+  /// the order of the plan's schedule.
+  void window(const FluidMessage& fluid, const std::function<void()>& advance,
+              const std::function<void(ParticleMessage)>& take);
+
+  /// The particles' report of the window; agrees with them whether to go on.
+  ParticleReport close_window();
+};
+
+}  // namespace demvof

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupler/link/link.hpp"
+#include "coupler/link/window_plan.hpp"
+
+namespace demvof {
+
+/// What both ends of a pair have in common: the link, the plan, and where in the run they are. The messages
+/// of a run and their order: docs/protocol.md, and there alone FluidEnd and ParticleEnd. Calls are collective
+/// over the program.
+class PairEnd {
+ public:
+  PairEnd(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
+      : link_(world, bulk_cells, time_out_seconds) {}
+
+  /// This program's bulk cells.
+  const BulkPartition& mine() const { return link_.mine(); }
+  const LinkStatistics& statistics() const { return link_.statistics(); }
+
+  /// As Link::handshake.
+  std::string handshake(const std::vector<HandshakeItem>& items, const std::string& facts) {
+    return link_.handshake(items, facts);
+  }
+  const WindowPlan& plan() const { return plan_; }
+
+  /// Goes to the next window; false when the last one is done, or a side asked for an end.
+  bool next_window() {
+    if (!goes_on_ || number_ >= plan_.windows) return false;
+    ++number_;
+    return true;
+  }
+  /// Number of the present window, from 1, and the time at its end, s.
+  long number() const { return number_; }
+  double end_time() const { return static_cast<double>(number_) * plan_.window; }
+  /// False once a side has asked for an end before that of the plan.
+  bool goes_on() const { return goes_on_; }
+
+  /// At the end of a window: whether both sides now write what the run can be continued from, and that both
+  /// have.
+  bool writes() const;
+  void both_have_written() { link_.meet("the partner to write its state"); }
+
+  /// The orderly end, when both sides are done.
+  void close() { link_.close(); }
+
+ protected:
+  void start_with(const WindowPlan& plan) {
+    plan_ = plan;
+    number_ = plan.windows_before;
+  }
+  void agree() { goes_on_ = link_.agree_to_continue(); }
+
+  Link link_;
+  WindowPlan plan_;
+
+ private:
+  long number_ = 0;
+  bool goes_on_ = true;
+};
+
+}  // namespace demvof

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "coupler/exchange/particle_report.hpp"
+#include "coupler/link/pair_end.hpp"
+
+namespace demvof {
+
+/// The particles' end of the pair: the counterpart of FluidEnd, call by call.
+class ParticleEnd : public PairEnd {
+ public:
+  using PairEnd::PairEnd;
+
+  /// After the handshake.
+  const WindowPlan& receive_plan();
+
+  /// The fluid's share in those bulk cells of this rank that its mesh does not fill.
+  CellValues<double> open_shares() { return link_.receive<double>(); }
+  /// Ends the start: the particles before the first window.
+  void start(const CellValues<BulkParticles>& particles, const ParticleReport& report);
+
+  /// The fluid at the start of the window, whatever the schedule.
+  FluidMessage fluid();
+  /// What the particles did in it.
+  void send(const ParticleMessage& particles);
+  /// Reports the window; agrees with the fluid whether to go on.
+  void close_window(const ParticleReport& report);
+};
+
+}  // namespace demvof

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A stand-in for dem_side: a bed with prescribed rows, a slab of the bulk grid between two heights that holds
+// the same solid fraction and drag per volume everywhere and rises with a given velocity, whatever the fluid
+// does. It plays the particles' part of the window protocol with the real foam_side and books what it
+// receives. Usage: mock_particles case.yaml [options below]; foam_side --continue needs no option here.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/failure.hpp"
+#include "coupler/link/handshake_items.hpp"
+#include "coupler/link/main_guard.hpp"
+#include "coupler/link/particle_end.hpp"
+#include "coupler/output/machine.hpp"
+
+namespace {
+
+using namespace demvof;
+
+struct Options {
+  std::string case_file;
+  std::vector<std::string> overrides;  // --set, as given to foam_side
+  std::vector<double> bed{0, 0};       // z at the start, m
+  double solid_fraction = 0.4;         // -
+  double drag = 0;                     // of the bed, per volume, kg/(m3 s)
+  double velocity = 0;                 // upward, m/s
+  std::vector<double> gravity{0, 0, 0};
+  std::vector<bool> periodic{false, false, false};
+};
+
+/// The bed on the bulk grid.
+class Bed {
+ public:
+  Bed(const Options& options, const BulkGrid& grid, const BulkPartition& partition, MPI_Comm comm)
+      : options_(options), grid_(grid), comm_(comm) {
+    int rank;
+    check_mpi(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
+    begin_ = partition.begin(rank);
+    end_ = partition.end(rank);
+  }
+
+  /// Its rows at a time (s), at rest so far.
+  CellValues<BulkParticles> at(double time) const {
+    CellValues<BulkParticles> rows;
+    const double rise = options_.velocity * time;
+    for (CellId cell = begin_; cell < end_; ++cell) {
+      const double low = grid_.cell_lower(grid_.ijk(cell)).z, high = low + grid_.spacing().z;
+      const double inside = std::min(high, options_.bed[1] + rise) - std::max(low, options_.bed[0] + rise);
+      if (inside <= 0) continue;
+      const double volume = inside / grid_.spacing().z * grid_.cell_volume();
+      BulkParticles row;
+      row.solid_volume = options_.solid_fraction * volume;
+      row.drag_factor = row.drag_response = options_.drag * volume;
+      row.drag_weighted_velocity = row.drag_factor * velocity();
+      rows.cells.push_back(cell);
+      rows.values.push_back(row);
+    }
+    return rows;
+  }
+
+  /// Lets the fluid act for a window on rows that at() made. A cell that the fluid was not told about feels
+  /// the mean of the others.
+  void feel(const CellValues<BulkFluid>& fluid, double window, CellValues<BulkParticles>& rows) const {
+    Vec3 mean;
+    for (const BulkFluid& cell : fluid.values) mean += cell.velocity;
+    mean = sum(mean) / std::max(1.0, sum(Vec3{double(fluid.cells.size()), 0, 0}).x);
+    for (std::size_t i = 0; i < rows.cells.size(); ++i) {
+      BulkParticles& row = rows.values[i];
+      const BulkFluid* cell = find(fluid, rows.cells[i]);
+      const Vec3 felt = cell ? cell->velocity : mean;
+      row.drag_impulse = window * row.drag_factor * (felt - velocity());
+      row.response_weighted_velocity = row.drag_response * felt;
+    }
+  }
+
+  /// What it received in a window that began with `before`, and what it is now.
+  ParticleReport report(const CellValues<BulkParticles>& before, const CellValues<BulkFluid>& fluid,
+                        const CellValues<BulkParticles>& now, double window) const {
+    ParticleReport report;
+    for (const BulkParticles& row : now.values) {
+      report.solid_volume += row.solid_volume;
+      report.drag_impulse += row.drag_impulse;
+    }
+    for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
+      const BulkParticles* row = find(before, fluid.cells[i]);
+      if (!row) continue;
+      report.pressure_impulse -= window * row->solid_volume * fluid.values[i].pressure_gradient;
+      (row->drag_factor > 0 ? report.left_over_given : report.left_over_unplaced) +=
+          fluid.values[i].left_over;
+    }
+    report.solid_volume = sum(Vec3{report.solid_volume, 0, 0}).x;
+    report.solid_volume_bulk = report.solid_volume;
+    report.drag_impulse = report.drag_impulse_bulk = sum(report.drag_impulse);
+    report.pressure_impulse = sum(report.pressure_impulse);
+    report.left_over_given = sum(report.left_over_given);
+    report.left_over_unplaced = sum(report.left_over_unplaced);
+    report.held_impulse = report.drag_impulse + report.pressure_impulse + report.left_over_given;
+    report.count = 1;
+    return report;
+  }
+
+ private:
+  Vec3 velocity() const { return {0, 0, options_.velocity}; }
+  Vec3 sum(Vec3 part) const {
+    check_mpi(MPI_Allreduce(MPI_IN_PLACE, &part, 3, MPI_DOUBLE, MPI_SUM, comm_), "MPI_Allreduce");
+    return part;
+  }
+
+  const Options& options_;
+  BulkGrid grid_;
+  MPI_Comm comm_;
+  CellId begin_, end_;
+};
+
+std::string facts(const Options& options, double solid_volume, double window, const OwnWorld& world) {
+  return nlohmann::json{{"particle_count", 1},
+                        {"min_diameter", 1e-3},
+                        {"max_diameter", 1e-3},
+                        {"solid_volume", solid_volume},
+                        {"inserts_particles", false},
+                        {"time_step", window},
+                        {"periodic", options.periodic},
+                        {"collision_time", 0},
+                        {"rayleigh_time", 0},
+                        {"lightest_response", 0},
+                        {"largest_solid_fraction", options.solid_fraction},
+                        {"closures", nlohmann::json::array()},
+                        {"momentum", {0, 0, 0}},
+                        {"ranks", world.size()}}
+      .dump();
+}
+
+int play(const Options& options, OwnWorld& world) {
+  const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  const BulkGridParameters& box = *parameters.bulk_grid;
+  const BulkGrid grid(box.lower, box.upper, box.cells);
+  ParticleEnd link(world, grid.cell_count(), parameters.coupling.time_out);
+  const Bed bed(options, grid, link.mine(), world.comm());
+  const std::vector<double>& g = options.gravity;
+  CellValues<BulkParticles> rows = bed.at(0);
+  const double solid_volume = bed.report({}, {}, rows, 0).solid_volume;
+  link.handshake(handshake_items(version(), configuration_hash(parameters), {g[0], g[1], g[2]}),
+                 facts(options, solid_volume, parameters.coupling.window, world));
+  const WindowPlan& plan = link.receive_plan();
+
+  link.open_shares();
+  rows = bed.at(static_cast<double>(plan.windows_before) * plan.window);
+  link.start(rows, bed.report({}, {}, rows, 0));
+  while (link.next_window()) {
+    const FluidMessage fluid = link.fluid();
+    CellValues<BulkParticles> next = bed.at(link.end_time());
+    bed.feel(fluid.means, plan.window, next);
+    ParticleMessage done{next, {}};
+    if (plan.interface) done.droplets.emplace();
+    link.send(done);
+    link.close_window(bed.report(rows, fluid.means, next, plan.window));
+    rows = std::move(next);
+    if (link.writes()) link.both_have_written();
+  }
+  link.close();
+  return exit_done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("A bed with prescribed rows in place of dem_side.", "mock_particles");
+  app.add_option("case", options.case_file)->required();
+  app.add_option("--set", options.overrides)->expected(1)->take_all();
+  app.add_option("--bed", options.bed)->expected(2);
+  app.add_option("--solid-fraction", options.solid_fraction);
+  app.add_option("--drag", options.drag);
+  app.add_option("--velocity", options.velocity);
+  app.add_option("--gravity", options.gravity)->expected(3);
+  app.add_option("--periodic", options.periodic)->expected(3);
+  CLI11_PARSE(app, argc, argv);
+  OwnWorld world(argc, argv, Side::particles);
+  return guarded_main(world, [&] { return play(options, world); });
+}
