@@ -18,6 +18,28 @@ import sys
 import time
 
 
+ROUND_OFF = 1e-8  # bounds below it are of round-off
+
+
+def room(value):
+    """How much worse a value of a record could be within its bound, as a factor."""
+    better, worse = sorted((abs(value["value"]), abs(value["bound"])))
+    if value["comparison"] == "at least" and value["value"] < 0:
+        better, worse = worse, better
+    return worse / better if better > 0 else math.inf
+
+
+def without_teeth(value):
+    """True when a value of a record has more room than 3 times, round-off 20 times, and no written reason for it.
+    A count that has to be 0 and a round-off that is exactly 0 have none to measure."""
+    bound = value["bound"]
+    if bound is None or value.get("loose") or not value["passed"] or bound == 0:
+        return False
+    if abs(bound) < ROUND_OFF:
+        return value["value"] != 0 and room(value) > 20
+    return room(value) > 3
+
+
 class Record:
     def __init__(self, row, title, what, command=None):
         """row: file name and key; what: a paragraph for docs/verification.md; command: that repeats it, from the
@@ -27,15 +49,16 @@ class Record:
         self.values, self.curves = [], []
         self.begin = time.monotonic()
 
-    def _add(self, name, value, bound, unit, comparison, passed):
+    def _add(self, name, value, bound, unit, comparison, passed, loose=None):
         self.values.append({"name": name, "value": value, "bound": bound, "unit": unit, "comparison": comparison,
-                            "passed": bool(passed)})
+                            "passed": bool(passed), **({"loose": loose} if loose else {})})
 
-    def at_most(self, name, value, bound, unit="-"):
-        self._add(name, value, bound, unit, "at most", math.isfinite(value) and value <= bound)
+    def at_most(self, name, value, bound, unit="-", loose=None):
+        """loose: why the bound may be further away than 3 times the value (20 times where it is round-off)."""
+        self._add(name, value, bound, unit, "at most", math.isfinite(value) and value <= bound, loose)
 
-    def at_least(self, name, value, bound, unit="-"):
-        self._add(name, value, bound, unit, "at least", math.isfinite(value) and value >= bound)
+    def at_least(self, name, value, bound, unit="-", loose=None):
+        self._add(name, value, bound, unit, "at least", math.isfinite(value) and value >= bound, loose)
 
     def note(self, name, value, unit="-"):
         """A number that is measured and held to no bound."""
@@ -57,5 +80,6 @@ class Record:
         for v in self.values:
             bound = "" if v["bound"] is None else f"({v['comparison']} {v['bound']:.4g})"
             value = v["value"] if isinstance(v["value"], (int, str)) else f"{v['value']:.4g}"
-            print(f"{'ok ' if v['passed'] else 'NOT'}  {v['name']:<60} {value} {v['unit']} {bound}")
+            print(f"{'ok ' if v['passed'] else 'NOT'}  {v['name']:<60} {value} {v['unit']} {bound}"
+                  + (f"  {room(v):.0f} times the value" if without_teeth(v) else ""))
         return 0 if all(v["passed"] for v in self.values) else 1

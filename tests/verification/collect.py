@@ -4,9 +4,12 @@
 
     collect.py summary RECORDS OUT.json    one list of {name, value, bound, unit, passed, command}; a table on the screen
     collect.py keep RECORDS                copies the records to docs/verification/records, with commit and machine
+    collect.py teeth RECORDS               bounds further away than 3 times the value (round-off: 20 times) without a
+                                           written reason (record.py, `loose`)
     collect.py page [--check]              docs/verification.md and its pictures from docs/verification/records
 
-Exit status: 0, or 1 when a bound does not hold (summary) or the page is not that of the records (page --check).
+Exit status: 0, or 1 when a bound does not hold (summary), is too far away (teeth) or the page is not that of the
+records (page --check).
 """
 import datetime
 import json
@@ -16,6 +19,10 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+
+from record import room, without_teeth  # noqa: E402
+
 KEPT = ROOT / "docs" / "verification" / "records"
 PAGE = ROOT / "docs" / "verification.md"
 
@@ -32,8 +39,21 @@ def summary(records, out):
     failed = [row for row in rows if not row["passed"]]
     for row in failed:
         print(f"NOT  {row['name']}: {row['value']} {row['unit']} (bound {row['bound']})")
-    print(f"{len(rows)} values of {len(records)} tests, {len(failed)} outside their bound: {out}")
+    loose = sum(without_teeth(value) for record in records for value in record["values"])
+    print(f"{len(rows)} values of {len(records)} tests, {len(failed)} outside their bound, {loose} with bounds too far "
+          f"away (collect.py teeth): {out}")
     return 1 if failed else 0
+
+
+def teeth(records):
+    loose = [(room(value), record["row"], value) for record in records for value in record["values"]
+             if without_teeth(value)]
+    for factor, row, value in sorted(loose, key=lambda entry: -entry[0]):
+        print(f"{factor:10.3g} times  {row}: {value['name']}: {number(value['value'])}, {value['comparison']} "
+              f"{number(value['bound'])}")
+    bounded = sum(value["bound"] is not None for record in records for value in record["values"])
+    print(f"{len(loose)} of {bounded} bounds are too far away and say no reason")
+    return 1 if loose else 0
 
 
 def machine():
@@ -59,6 +79,8 @@ def section(record):
     for v in record["values"]:
         bound = "" if v["bound"] is None else f"{v['comparison']} {number(v['bound'])}"
         held = "" if v["bound"] is None else "holds" if v["passed"] else "**does not hold**"
+        if v.get("loose"):
+            held += f"; {v['loose']}"
         lines.append(f"| {v['name']} | {number(v['value'])} | {'' if v['unit'] == '-' else v['unit']} | {bound} | {held} |")
     if record["curves"]:
         lines += ["", f"![{record['title']}](verification/{record['row']}.svg)"]
@@ -111,6 +133,8 @@ def draw(record):
 def main(words):
     if words[:1] == ["summary"] and len(words) == 3:
         return summary(read(words[1]), words[2])
+    if words[:1] == ["teeth"] and len(words) == 2:
+        return teeth(read(words[1]))
     if words[:1] == ["keep"] and len(words) == 2:
         return keep(words[1])
     if words == ["page", "--check"]:

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faults that the tests have to notice: (file, text, text with the fault, tests).
+
+The text stands exactly once in the file, which `plant.py --check` sees to. Tests are default ones, and short."""
+
+# Tests by what they look at, each with the targets that it needs.
+CLOSURES = {f"^unit_{name}$": [f"unit_{name}"] for name in ("drag", "closures", "own_wake", "implicit_drag")}
+EXCHANGE = {f"^unit_{name}$": [f"unit_{name}"] for name in ("exchange_stability", "added_mass_exchange", "relaxation",
+                                                            "ledger", "books", "crossing")}
+AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_test.2$": ["limit_solid_test"],
+             "^unit_kernel_weights$": ["unit_kernel_weights"]}
+MAPPING = {"^unit_pieces$": ["unit_pieces"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
+FORCES = {r"^mock_dem_forces\..*\.1$": ["mock_dem_forces"], "^mock_dem_settling.1$": ["dem_side", "mock_fluid"]}
+BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
+
+FAULTS = [
+    # ---- closures
+    ("coupler/closures/drag.hpp", "1 + 0.15 * std::pow(inertia / viscosity, 0.687)",
+     "1 + 0.15 * std::pow(inertia / viscosity, 0.678)", CLOSURES),
+    ("coupler/closures/drag.hpp", "return pi / 8 * 0.44 * inertia * diameter;",
+     "return pi / 4 * 0.44 * inertia * diameter;", CLOSURES),
+    ("coupler/closures/drag.hpp", "(150 * (1 - eps) + 1.75 * reynolds) / (18 * eps * eps)",
+     "(150 * (1 - eps) + 1.75 * reynolds) / (18 * eps)", CLOSURES),
+    ("coupler/closures/drag.hpp", "0.63 * std::sqrt(reynolds) + 4.8", "0.63 * std::sqrt(reynolds) - 4.8", CLOSURES),
+    ("coupler/closures/drag.hpp", "3.7 - 0.65 * voidage_dip(reynolds)",
+     "3.7 + 0.65 * voidage_dip(reynolds)", CLOSURES),
+    ("coupler/closures/drag.hpp", "(slow + inertial * reynolds / 2)", "(slow + inertial * reynolds)", CLOSURES),
+    ("coupler/closures/drag.hpp", "square * (1 + 1.5 * std::sqrt(phi))", "square * (1 + 1.5 * phi)", CLOSURES),
+    ("coupler/closures/drag.hpp", "2.65 * (eps + 1)", "2.65 * (eps - 1)", CLOSURES),
+    ("coupler/closures/lift.hpp", "cross(slip, vorticity)", "cross(vorticity, slip)", CLOSURES),
+    ("coupler/closures/lift.hpp", "return (1 - root) * decay + root;", "return (1 - root) * decay;", CLOSURES),
+    ("coupler/closures/own_wake.hpp", "return beta * stokes * mobility / width;",
+     "return beta * stokes * mobility;", CLOSURES),
+    ("dem_side/implicit_drag.hpp", "(phi - 1) * other", "(1 - phi) * other", CLOSURES),
+    ("dem_side/implicit_drag.hpp", "(1 - contact_fraction) * free", "contact_fraction * free", CLOSURES),
+    # ---- exchange
+    ("coupler/exchange/momentum_exchange.hpp", "particles.response_weighted_velocity / particles.drag_response",
+     "particles.response_weighted_velocity / particles.drag_factor", {**EXCHANGE, **BED}),
+    ("coupler/exchange/momentum_exchange.hpp", "? drag_factor_now / drag_factor_then : 1.0",
+     "? drag_factor_then / drag_factor_now : 1.0", {**EXCHANGE, **BED}),
+    ("coupler/exchange/relaxation.hpp", "4 * std::max(solid - following, 0.0)",
+     "0 * std::max(solid - following, 0.0)", EXCHANGE),
+    ("coupler/exchange/relaxation.hpp", "? (1 + gain) / 1.2 :", "? (1 + gain) / 2.4 :", EXCHANGE),
+    ("coupler/exchange/relaxation.hpp", "density * particles.pressure_mobility / fluid_volume",
+     "density * particles.pressure_mobility", EXCHANGE),
+    ("coupler/exchange/crossing.hpp", "closing > least_speed && distance <=",
+     "closing > least_speed || distance <=", EXCHANGE),
+    ("coupler/exchange/ledger.hpp", "window.drag_to_particles + window.left_over_to_particles + to_fluid",
+     "window.drag_to_particles + to_fluid", EXCHANGE),
+    ("coupler/exchange/books.hpp", "balance.pending = unplaced_ - fluid.implicit_impulse",
+     "balance.pending = -fluid.implicit_impulse", EXCHANGE),
+    ("coupler/exchange/support.hpp", "counts_as_held * norm(cell.contact) / asked",
+     "counts_as_held * asked / norm(cell.contact)", FORCES),
+    # ---- transfer
+    ("coupler/transfer/axis_kernel.cpp", "add(first, 1.0 - upper_share);", "add(first, upper_share);", AVERAGING),
+    ("coupler/transfer/axis_kernel.cpp", "m < count_ ? m : period - 1 - m", "m < count_ ? m : period - m", AVERAGING),
+    ("coupler/transfer/axis_kernel.cpp", "add(index, (above - below) / (2 * end));",
+     "add(index, (above - below) / 2);", AVERAGING),
+    ("coupler/transfer/kernel_weights.cpp", "x.share[a] * (y.share[b] * z.share[c])",
+     "x.share[a] * (y.share[c] * z.share[b])", AVERAGING),
+    ("coupler/transfer/kernel_weights.cpp", "row[m] += weights.weight[entry] * cell_row[m]",
+     "row[m] += cell_row[m]", AVERAGING),
+    ("coupler/transfer/kernel_weights.cpp", "weights.weight[entry] *= share[weights.slot[entry]] / sum",
+     "weights.weight[entry] *= share[weights.slot[entry]]", {**AVERAGING, **MAPPING}),
+    ("coupler/transfer/diffusion.cpp", "beyond_ = -1 / std::expm1(periodic ? log_row : 2 * log_row)",
+     "beyond_ = -1 / std::expm1(log_row)", AVERAGING),
+    ("coupler/transfer/diffusion.cpp", "0.25 * std::pow(bandwidth / grid.spacing()[axis], 2)",
+     "0.5 * std::pow(bandwidth / grid.spacing()[axis], 2)", AVERAGING),
+    ("coupler/transfer/averaging.cpp", "sample.left_over_rate = fluid.left_over / drag_factor",
+     "sample.left_over_rate = fluid.left_over", AVERAGING),
+    ("coupler/transfer/averaging.cpp", "mean.pressure_gradient / mean.fluid",
+     "mean.velocity / mean.fluid", AVERAGING),
+    ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - begin] *= open_share.values[i]",
+     "limit[open_share.cells[i] - begin] *= 1", AVERAGING),
+    ("coupler/transfer/limited_slopes.cpp", "if (excess > 1) slope *=", "if (excess > 2) slope *=", MAPPING),
+    ("coupler/transfer/limited_slopes.cpp", "const double weight = 1 / dot(d, d) / determinant;",
+     "const double weight = 1 / determinant;", MAPPING),
+    ("coupler/transfer/tetrahedron.cpp", "part.add(a[1], a[2], b[0], b[1]);",
+     "part.add(a[1], a[2], b[0], b[2]);", MAPPING),
+    ("coupler/transfer/tetrahedron.cpp", "(plane - a[axis]) / (b[axis] - a[axis])",
+     "(plane - b[axis]) / (b[axis] - a[axis])", MAPPING),
+    # ---- forces on the particles
+    ("dem_side/forces.cpp", "carried.pressure_force = -volume * here.pressure_gradient",
+     "carried.pressure_force = volume * here.pressure_gradient", FORCES),
+    ("dem_side/forces.cpp", "carried.left_over_force = beta / window * here.left_over_rate",
+     "carried.left_over_force = beta * here.left_over_rate", FORCES),
+    ("dem_side/forces.cpp", "sums.pressure += fluid.pressure_force;",
+     "sums.pressure += 0 * fluid.pressure_force;", FORCES),
+    ("dem_side/forces.cpp", "gradients.other_impulse += step * other;", "", FORCES),
+    ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
+     "store(external[i], given + steady);", FORCES),
+    # ---- between fine mesh and bulk grid
+    ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
+     "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", BED),
+    ("foam_side/porosity.cpp", "eps - porosity.goal.field()", "eps - porosity.eps.primitiveField()", BED),
+    ("foam_side/crowding.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
+]
