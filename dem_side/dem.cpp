@@ -92,8 +92,9 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
   for (std::string& word : words) arguments.push_back(word.data());
   by_the_script([&] {
     const Hush hush;
-    liggghts_ =
-        std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), world);
+    // It looks at no return code: errors of MPI_COMM_WORLD end the program, those of world are returned.
+    liggghts_ = std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(),
+                                                    MPI_COMM_WORLD);
     liggghts_->input->file(script.c_str());
   });
   require_coupled_scene(*liggghts_, script.string());

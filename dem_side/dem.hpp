@@ -51,7 +51,8 @@ struct ParticleCensus {
 /// the error line of that file.
 class Dem {
  public:
-  /// Collective over world. script, log: absolute paths. restart_file: what write_restart() of an earlier run
+  /// Collective over world, the ranks of this program; LIGGGHTS itself runs on MPI_COMM_WORLD, which OwnWorld
+  /// makes the same ranks. script, log: absolute paths. restart_file: what write_restart() of an earlier run
   /// has left, absolute; empty: a start.
   /// Throws InputError when the script is missing, leaves out something of the above, or LIGGGHTS
   /// refuses it.

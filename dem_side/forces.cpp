@@ -57,6 +57,9 @@ double without_own_wake(const Drag& law, const CarriedFluid& fluid, double diame
   return beta * ratio(beta, true_slip);
 }
 
+// Relative change of the slip over which the drag's slope is taken.
+constexpr double tangent_step = 1e-3;
+
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
 // particle that touches nothing is zero or a last bit of its weight.
 bool touches(const Vec3& contact, const Vec3& weight) {
@@ -132,6 +135,10 @@ void FluidForces::attach(const Drag& drag_law) {
 
 double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
   return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
+}
+
+double FluidForces::mean_drag_tangent(const CarriedFluid& fluid) const {
+  return fluid.drag_exponent * mean_drag_factor(fluid);
 }
 
 void FluidForces::go_on_from(double window, int steps) {
@@ -211,9 +218,17 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     if (fluid.density == 0) continue;
 
     const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
-    const double beta = own_wake_width_ ? without_own_wake(drag_law, fluid, diameter, norm(slip),
-                                                           (*own_wake_width_)(diameter), drag_count_)
-                                        : drag_law.factor(fluid, diameter, norm(slip), drag_count_);
+    const auto factor = [&](double speed, ClosureCount& count) {
+      return own_wake_width_
+                 ? without_own_wake(drag_law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
+                 : drag_law.factor(fluid, diameter, speed, count);
+    };
+    const double beta = factor(norm(slip), drag_count_);
+    if (steps_ == 0) {
+      ClosureCount further;
+      fluid.drag_exponent =
+          drag_exponent(beta, factor((1 + tangent_step) * norm(slip), further), tangent_step);
+    }
     Vec3 steady = fluid.pressure_force + fluid.left_over_force;
     Vec3 given;  // by the exchange: its reaction goes to the fluid
     if constexpr (with_gradients) {
@@ -257,15 +272,15 @@ std::vector<BulkParticles> FluidForces::contributions() const {
       need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
   for (int i = 0; i < particles.count; ++i) {
     const CarriedFluid& fluid = carried_by(rows, i);
-    const double beta = mean_drag_factor(fluid);
+    const double beta = mean_drag_factor(fluid), tangent = mean_drag_tangent(fluid);
     const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? fluid.contact_steps / steps_ : 1;
     const double added = added_mass(fluid, particles.radius[i]);
-    const double response = drag_response(beta, particles.mass[i], window_, held, added);
+    const double response = drag_response(tangent, particles.mass[i], window_, held, added);
     BulkParticles& here = contributions[i];
     here.solid_volume = sphere_volume(particles.radius[i]);
     if (dem_.moves(particles.mask[i])) {
       const double inertia = particles.mass[i] + added;
-      const double theta = inertial_share(beta, inertia, window_);
+      const double theta = inertial_share(tangent, inertia, window_);
       // Added mass: grad p and rho Du/Dt push alike.
       const double push = (1 + parameters_.added_mass) * here.solid_volume / inertia;
       here.pressure_mobility = theta * here.solid_volume * push;
@@ -295,9 +310,9 @@ std::vector<Support> FluidForces::support() const {
     if (gradient_rows) others += carried_by<CarriedGradients>(gradient_rows, i).stress_force;
     if (moves) others += parameters_.constant;
     if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * dem_.gravity();
-    const double beta = mean_drag_factor(fluid), added = added_mass(fluid, particles.radius[i]);
+    const double tangent = mean_drag_tangent(fluid), added = added_mass(fluid, particles.radius[i]);
     support[i] = {fluid.contact_impulse, fluid.drag_impulse, window_ * others,
-                  drag_response(beta, particles.mass[i], window_, moves ? 0 : 1, added)};
+                  drag_response(tangent, particles.mass[i], window_, moves ? 0 : 1, added)};
   }
   return support;
 }

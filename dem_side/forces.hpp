@@ -49,6 +49,7 @@ struct CarriedFluid {
   Vec3 left_over_force;        // N
   Vec3 drag_impulse;           // received in this window, lift and added mass included, N s
   double drag_factor_sum = 0;  // sum of beta over the steps of this window, kg/s
+  double drag_exponent = 1;    // n at the start of this window (implicit_drag.hpp), -
   double contact_steps = 0;    // steps of this window with a force other than gravity
   Vec3 contact_impulse;        // received from contacts in this window, N s
 };
@@ -114,6 +115,7 @@ class FluidForces {
   void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   double mean_drag_factor(const CarriedFluid& fluid) const;
+  double mean_drag_tangent(const CarriedFluid& fluid) const;
   double added_mass(const CarriedFluid& fluid, double radius) const {  // kg
     return parameters_.added_mass * fluid.density * sphere_volume(radius);
   }

@@ -18,6 +18,7 @@
 // m + m_a stands for m and F + m_a Du/Dt for F. The acceleration is found, not extrapolated: stable for
 // particles as light as wished.
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupler/base/vec3.hpp"
@@ -38,21 +39,29 @@ inline Vec3 implicit_drag(double beta, const Vec3& slip, const Vec3& other, doub
   return beta * phi * slip + (phi - 1) * other;
 }
 
-/// theta, -: how much of its own inertia is left to a free particle over a window (s), 1 without drag, 0 when
-/// it follows the fluid at once. inertia: m + m_a, kg.
-inline double inertial_share(double beta, double inertia, double window) {
-  return mean_decay(beta * window / inertia);
+/// n = d ln(beta s)/d ln s, -: a change ds of the slip changes the drag by n beta ds. 1 in Stokes's range, 2
+/// in Newton's. From beta at s and at (1 + change) s; a law that jumps between two branches counts as no more
+/// than Newton's.
+inline double drag_exponent(double beta, double beta_further, double change) {
+  return beta > 0 ? std::clamp(1 + (beta_further / beta - 1) / change, 1.0, 2.0) : 1;
 }
 
-/// beta_eff, kg/s: change of what a particle takes from the fluid, per time, with the fluid velocity. A free
-/// particle follows the fluid, (m/window)(1 - exp(-beta window/(m + m_a))): of the momentum it gains the
-/// added mass m_a is the fluid's own. One held by contacts does not follow, beta.
+/// theta, -: how much of its own inertia is left to a free particle over a window (s), 1 without drag, 0 when
+/// it follows the fluid at once. tangent: n beta, kg/s; inertia: m + m_a, kg.
+inline double inertial_share(double tangent, double inertia, double window) {
+  return mean_decay(tangent * window / inertia);
+}
+
+/// beta_eff, kg/s: change of what a particle takes from the fluid, per time, with the fluid velocity; so it
+/// goes by the tangent n beta of the drag, not by the secant beta. A free particle follows the fluid,
+/// (m/window)(1 - exp(-n beta window/(m + m_a))): of the momentum it gains the added mass m_a is the fluid's
+/// own. One held by contacts does not follow, n beta.
 /// contact_fraction: part of the window it spent in contact, 0 .. 1.
-inline double drag_response(double beta, double mass, double window, double contact_fraction,
+inline double drag_response(double tangent, double mass, double window, double contact_fraction,
                             double added_mass = 0) {
   const double inertia = mass + added_mass;
-  const double free = mass / inertia * beta * mean_decay(beta * window / inertia);
-  return contact_fraction * beta + (1 - contact_fraction) * free;
+  const double free = mass / inertia * tangent * mean_decay(tangent * window / inertia);
+  return contact_fraction * tangent + (1 - contact_fraction) * free;
 }
 
 }  // namespace demvof

@@ -220,7 +220,7 @@ void Bridge::end_window() {
     const BulkParticles* particles = find(owned_, cell);
     if (!particles) continue;
     left_over_.cells.push_back(cell);
-    left_over_.values.push_back({impulse, particles->drag_factor});
+    left_over_.values.push_back({impulse, particles->solid_volume});
   }
 }
 
@@ -232,8 +232,8 @@ void Bridge::return_left_over(CellValues<BulkParticles>& particles) {
     const auto place = std::lower_bound(particles.cells.begin(), particles.cells.end(), cell);
     const auto slot = place - particles.cells.begin();
     const bool there = place != particles.cells.end() && *place == cell;
-    const double now = there ? particles.values[slot].drag_factor : 0;
-    const Vec3 returned = (1 - share_for_particles(owed.drag_factor, now)) * owed.impulse;
+    const double now = there ? particles.values[slot].solid_volume : 0;
+    const Vec3 returned = (1 - share_for_particles(owed.solid_volume, now)) * owed.impulse;
     if (norm(returned) == 0) continue;
     if (!there) {
       particles.cells.insert(place, cell);

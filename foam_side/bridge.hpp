@@ -92,10 +92,10 @@ class Bridge {
   };
   Relaxed relaxed() const;
 
-  /// Impulse owed to the particles of a bulk cell, and the drag it came from.
+  /// Impulse owed to the particles of a bulk cell, and how much of them it came from.
   struct LeftOver {
-    Vec3 impulse;            // N s
-    double drag_factor = 0;  // sum of w beta, kg/s
+    Vec3 impulse;             // N s
+    double solid_volume = 0;  // sum of w V, m3
   };
   /// What the particles of a bulk cell were last told of the fluid (coupler/exchange/relaxation.hpp).
   struct Told {

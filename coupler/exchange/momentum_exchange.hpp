@@ -61,11 +61,12 @@ inline bool pays_drag_impulse(ExchangeScheme scheme) {
   return scheme != ExchangeScheme::semi_implicit;
 }
 
-/// Of a left-over impulse, the part that the particles in its cell take: all of it, unless they answer with
-/// less drag than those that left it over did. Concurrent particles have moved on before they hear of it;
-/// the rest goes back to the fluid it came from. drag_factor then and now: sum of w beta, kg/s.
-inline double share_for_particles(double drag_factor_then, double drag_factor_now) {
-  return drag_factor_now < drag_factor_then ? drag_factor_now / drag_factor_then : 1.0;
+/// Of a left-over impulse, the part that the particles in its cell take: all of it, unless there are less of
+/// them than left it over. Concurrent particles have moved on before they hear of it; the rest goes back to
+/// the fluid it came from. Not by their drag: where it grows faster than the slip, it falls with the slip
+/// though nobody has left. solid_volume then and now: sum of w V, m3.
+inline double share_for_particles(double solid_volume_then, double solid_volume_now) {
+  return solid_volume_now < solid_volume_then ? solid_volume_now / solid_volume_then : 1.0;
 }
 
 /// True when the impulse of the implicit part goes back to the particles in the next window.

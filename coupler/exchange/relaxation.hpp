@@ -18,7 +18,7 @@
 //   concurrent   omega = min(1, 1/(0.3 + 0.8 min(A, 2) + 3 G)),   A = K_eff dt/(eps rho)
 //
 //   G = 1.5 R_theta + y (1 + 0.3 y + 4 (s - y)),   y = s (1 - theta),   R_theta = R theta
-//   theta = (1 - exp(-x))/x,  x = beta dt/(m + m_a)
+//   theta = (1 - exp(-x))/x,  x = n beta dt/(m + m_a), n beta = d(beta s)/ds
 //
 // no disturbance grows, neither in volume nor in shear: found for the linear map of one window, densities
 // 0.01 to 20 of the fluid's (concurrent: to 1e4), eps_s up to 0.7 (0.6), x 1e-3 to 1e4, free particles and

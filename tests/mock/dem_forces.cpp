@@ -323,6 +323,34 @@ TEST(DemForces, TellFrozenRestingAndFreeParticlesApart) {
   }
 }
 
+// In Newton's range a change of the fluid's velocity changes the drag twice as much as the drag factor says.
+TEST(DemForces, AnswerWithTheSlopeOfTheDrag) {
+  Scene scene("slope", empty_box(1e-5) + bead({0.02, 0.05, 0.2}) + bead({0.08, 0.05, 0.2}) +
+                           bead_properties() +
+                           "region left block 0 0.03 0 0.1 0 0.4 units box\ngroup left region left\n"
+                           "fix hold left freeze\n" +
+                           integrate);
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  FluidAtParticle stream;
+  stream.velocity = {1, 0, 0};  // Re = 2700
+  stream.density = 1000;
+  stream.viscosity = 1e-3;
+  const int steps = 5;
+  forces.begin_window(std::vector<FluidAtParticle>(scene.dem->particles().count, stream), steps * 1e-5);
+  scene.dem->run(steps);
+  const auto rows = forces.contributions();
+  const auto particles = scene.dem->particles();
+  for (int i = 0; i < particles.count; ++i) {
+    const double x = 2 * rows[i].drag_factor * steps * 1e-5 / bead_mass;
+    const double free = (1 - std::exp(-x)) / x;
+    EXPECT_NEAR(rows[i].drag_response / rows[i].drag_factor, particles.position[i][0] < 0.03 ? 2 : 2 * free,
+                1e-9);
+    EXPECT_NEAR(rows[i].response_weighted_velocity.x, rows[i].drag_response, 1e-12 * rows[i].drag_response);
+    EXPECT_NEAR(forces.support()[i].free_response, rows[i].drag_response, 1e-12 * rows[i].drag_response);
+  }
+}
+
 // A particle that comes into being during a window waits for the next one without any fluid force.
 TEST(DemForces, LetInsertedParticlesWaitForTheNextWindow) {
   Scene scene(

@@ -157,7 +157,7 @@ TEST(ExchangeTold, IsTheFluidAsItIsWhereNothingAsksForLess) {
   EXPECT_EQ(relaxation_factor(Schedule::concurrent, 0, 1e6), 1 / 1.9);
 }
 
-TEST(ExchangeLeftOver, ParticlesTakeNoMoreThanTheirDragStandsFor) {
+TEST(ExchangeLeftOver, ParticlesTakeNoMoreThanTheirNumberStandsFor) {
   EXPECT_EQ(share_for_particles(2, 2), 1);
   EXPECT_EQ(share_for_particles(2, 3), 1);
   EXPECT_EQ(share_for_particles(2, 0.5), 0.25);

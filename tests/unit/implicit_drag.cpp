@@ -116,6 +116,24 @@ TEST(DragResponse, CountsTheAddedMass) {
   }
 }
 
+// beta s = a s + b s^2 has n = 1 + b s/(a + b s); single spheres from Stokes's range to Newton's.
+TEST(DragExponent, IsTheSlopeOfTheDrag) {
+  const double change = 1e-3;
+  for (const double ratio : {0.0, 0.01, 1.0, 24.0, 1e4}) {  // b s/a
+    const auto beta = [&](double s) { return 1 + ratio * s; };
+    EXPECT_NEAR(demvof::drag_exponent(beta(1), beta(1 + change), change), 1 + ratio / (1 + ratio), 1e-12);
+  }
+  const auto sphere = [&](double reynolds) {
+    const auto beta = [&](double s) { return demvof::schiller_naumann(1, 1, 1, s * reynolds); };
+    return demvof::drag_exponent(beta(1), beta(1 + change), change);
+  };
+  EXPECT_EQ(sphere(0), 1);
+  EXPECT_NEAR(sphere(100), 1 + 0.687 * (1 - 1 / (1 + 0.15 * std::pow(100, 0.687))), 1e-3);
+  EXPECT_NEAR(sphere(1e4), 2, 1e-12);
+  EXPECT_EQ(sphere(999.5), 2) << "Newton's drag begins with a jump";
+  EXPECT_EQ(demvof::drag_exponent(0, 0, change), 1) << "no drag";
+}
+
 TEST(DragResponse, IsThatOfAFreeOrAHeldParticle) {
   const double window = 1e-3;
   for (const double beta : {1e-6, 1e-2, 1e3}) {
