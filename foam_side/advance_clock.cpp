@@ -69,8 +69,4 @@ bool advance_clock(Flow& flow) {
   return true;
 }
 
-bool outer_corrector(Flow& flow) {
-  return flow.pimple.loop();
-}
-
 }  // namespace demvof

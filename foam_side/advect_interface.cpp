@@ -175,15 +175,6 @@ tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScala
 
 }  // namespace
 
-void update_face_force(Flow& flow) {
-  flow.face_force.clear();
-  flow.face_force = -flow.ghf * fvc::snGrad(flow.rho) * flow.mesh.magSf();
-  if (flow.scene.surface_tension) {
-    flow.mixture.interfaceProperties::correct();
-    flow.face_force.ref() += flow.mixture.surfaceTensionForce() * flow.mesh.magSf();
-  }
-}
-
 void advect_interface(Flow& flow) {
   if (flow.porosity) carry_void_fraction(flow);
   if (!flow.scene.interface_advection) {

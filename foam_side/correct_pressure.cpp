@@ -5,7 +5,7 @@
 //   div(a_f grad p_rgh) = div(phi without grad p_rgh)
 //   u = h + a [(face_force - grad p_rgh.S) reconstructed in the cell]
 //
-// With particles the face balance of crowding.hpp, and div(phi) = -d(eps)/dt.
+// With particles the face balance of face_drag.hpp, and div(phi) = -d(eps)/dt.
 // Gravity, surface tension and pressure meet at the face: where they balance, flux and velocity are
 // zero for any void fraction and any drag.
 
@@ -25,20 +25,20 @@ tmp<scalarField> rate_to_serve(const Flow& flow) {
 }
 
 void update_face_velocity(Flow& flow) {
-  if (flow.velocity_flux) *flow.velocity_flux = flow.phi / flow.pressure_system.crowding->eps_f;
+  if (flow.velocity_flux) *flow.velocity_flux = flow.phi / flow.pressure_system.face_drag->eps_f;
   if (!flow.face_velocity) return;
   const surfaceVectorField normal(flow.mesh.Sf() / flow.mesh.magSf());
   surfaceVectorField& face_velocity = *flow.face_velocity;
   face_velocity = fvc::interpolate(flow.U);
   tmp<surfaceScalarField> speed = flow.phi / flow.mesh.magSf();
-  if (flow.porosity) speed.ref() /= flow.pressure_system.crowding->eps_f;
+  if (flow.porosity) speed.ref() /= flow.pressure_system.face_drag->eps_f;
   face_velocity += normal * (speed - (normal & face_velocity));
 }
 
 /// Flux without the forces that the pressure balances, m3/s.
 tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
   if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
-  const Crowding& c = *flow.pressure_system.crowding;
+  const FaceDrag& c = *flow.pressure_system.face_drag;
   return tmp<surfaceScalarField>::New(
       "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
 }
@@ -58,7 +58,7 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
     if (!given(patch)) continue;
     Foam::fvsPatchScalarField& at = through.boundaryFieldRef()[patch];
     at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
-    if (flow.porosity) at *= flow.pressure_system.crowding->eps_f.boundaryField()[patch];
+    if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
   }
   Foam::adjustPhi(through, flow.U, flow.p_rgh);
   forAll(flow.mesh.boundary(), patch) if (!given(patch))
@@ -73,11 +73,11 @@ void update_velocity(Flow& flow, const volVectorField& h, const surfaceScalarFie
   forAll(U, cell) U[cell] = h[cell] + rAU[cell] * push[cell];
 }
 
-/// transported: H_f/e of crowding.hpp.
+/// transported: H_f/e of face_drag.hpp.
 void update_velocity_between_particles(Flow& flow, const volVectorField& h,
                                        const surfaceScalarField& transported) {
   const PressureSystem& system = flow.pressure_system;
-  const Crowding& c = *system.crowding;
+  const FaceDrag& c = *system.face_drag;
   const scalarField& rAU = system.inverse_diagonal->primitiveField();
   const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
   const Foam::vectorField push = (*flow.reconstruct)([&](const auto& at, label cell) {
@@ -95,12 +95,6 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
 }
 
 }  // namespace
-
-bool pressure_corrector(Flow& flow) {
-  if (flow.pimple.correct()) return true;
-  if (flow.pimple.turbCorr()) flow.turbulence->correct();
-  return false;
-}
 
 void correct_pressure(Flow& flow) {
   const PressureSystem& system = flow.pressure_system;

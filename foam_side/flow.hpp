@@ -18,7 +18,7 @@
 #include <memory>
 
 #include "coupler/scene/scene.hpp"
-#include "foam_side/crowding.hpp"
+#include "foam_side/face_drag.hpp"
 #include "foam_side/ghost_liquid.hpp"
 #include "foam_side/openfoam.hpp"
 #include "foam_side/reconstruct.hpp"
@@ -69,7 +69,7 @@ struct PressureSystem {
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
   std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
-  std::unique_ptr<Crowding> crowding;                // only with particles
+  std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
 };
 
@@ -198,5 +198,8 @@ Foam::vectorField pressure_gradient(const Flow& flow);
 
 /// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s, one value per cell.
 tmp<scalarField> dynamic_viscosity(const Flow& flow);
+
+/// Density of the fluid between the particles, kg/m3: rho, less what stands for particles in it.
+double density_between_particles(const Flow& flow, label cell);
 
 }  // namespace demvof

@@ -87,42 +87,8 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow) {
          (porosity.goal.field() - porosity.eps.primitiveField()) / flow.time.deltaTValue();
 }
 
-tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
-  const volScalarField specific_volume("specificVolume", 1.0 / flow.rho);
-  tmp<surfaceScalarField> free = flow.time.deltaT() * fvc::interpolate(specific_volume);
-  if (!flow.source) return free;
-  volScalarField inertia("A", flow.rho / flow.time.deltaT());
-  if (flow.porosity) inertia *= flow.porosity->eps;
-  const Crowding crowding(flow, inertia);
-  return free / (1.0 / crowding.eps_f + crowding.resistance);
-}
-
-void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
-  fit_flux(flow, flow.phi, mobility, wanted_rate);
-}
-
-void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate) {
-  Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
-  forAll(types, patch) {
-    if (flow.p_rgh.boundaryField()[patch].fixesValue())
-      types[patch] = Foam::fixedValueFvPatchScalarField::typeName;
-  }
-  volScalarField potential(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
-                           dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
-  flow.mesh.setFluxRequired(potential.name());
-  if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
-
-  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
-  // alpha.
-  const Foam::dictionary& solver = flow.mesh.solver(potential.select(wanted_rate == nullptr));
-  while (flow.pimple.correctNonOrthogonal()) {
-    Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
-    if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;
-    equation.setReference(0, 0);
-    equation.solve(solver);
-    if (flow.pimple.finalNonOrthogonalIter()) flux -= equation.flux();
-  }
+tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps) {
+  return 1.0 / fvc::interpolate(1.0 / eps);
 }
 
 }  // namespace demvof

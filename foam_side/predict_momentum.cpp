@@ -5,7 +5,7 @@
 //       = eps (sigma kappa grad alpha - g.x grad rho - grad p_rgh) + force + C (u_ref - u)
 //
 // The matrix kept for the pressure corrections holds the left side alone: the force of the particles
-// meets the pressure at the faces (crowding.hpp).
+// meets the pressure at the faces (face_drag.hpp).
 // eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
 #include "foam_side/flow.hpp"
@@ -96,10 +96,10 @@ void predict_momentum(Flow& flow) {
   system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));
   if (lag.valid()) *system.memory += lag;
   if (flow.source) {
-    system.crowding = std::make_unique<Crowding>(flow, A);
-    const Crowding& crowding = *system.crowding;
-    system.mobility = std::make_unique<surfaceScalarField>(
-        "rAUf", *system.response / (1.0 / crowding.eps_f + crowding.resistance));
+    system.face_drag = std::make_unique<FaceDrag>(flow, A);
+    const FaceDrag& drag = *system.face_drag;
+    system.mobility =
+        std::make_unique<surfaceScalarField>("rAUf", *system.response / (1.0 / drag.eps_f + drag.resistance));
   } else {
     system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
   }

@@ -17,8 +17,4 @@ Foam::vectorField pressure_gradient(const Flow& flow) {
   return gradient;
 }
 
-tmp<scalarField> dynamic_viscosity(const Flow& flow) {
-  return flow.rho.primitiveField() * flow.turbulence->nuEff()->primitiveField();
-}
-
 }  // namespace demvof

@@ -100,9 +100,9 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
     std::ifstream stream(path, std::ios::binary);
     const json state = json::from_cbor(stream);
     bridge.go_on_from({cell_values<BulkParticles>(state.at("particles")),
-                       cell_values<Bridge::LeftOver>(state.at("left_over")),
+                       cell_values<LeftOver::Owed>(state.at("left_over")),
                        cell_values<Vec3>(state.at("felt_shift")),
-                       cell_values<Bridge::Told>(state.at("told"))});
+                       cell_values<ToldFluid::Cell>(state.at("told"))});
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));
   } catch (const json::exception& error) {

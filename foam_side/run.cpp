@@ -43,11 +43,12 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   };
   if (refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
-    if (flow.porosity) renew_porosity(flow, bridge->void_fraction_before(), bridge->void_fraction());
+    if (flow.porosity) renew_porosity(flow, bridge->particles_to_fine().void_fraction_before(),
+                     bridge->particles_to_fine().void_fraction());
     settle_flux(flow);
   }
   update_porosity(flow);
-  if (bridge) bridge->spread_sources();
+  if (bridge) bridge->particles_to_fine().spread_sources();
   while (outer_corrector(flow)) {
     advect_interface(flow);
     predict_momentum(flow);
@@ -78,13 +79,14 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
 
   run_stage().set("first void fraction");
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
-  FluidEnd::Start first = link.start(bridge.open_shares());
+  ParticlesToFine& to_fine = bridge.particles_to_fine();
+  FluidEnd::Start first = link.start(bridge.cut().open_shares());
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
   } else {
-    if (flow.porosity) set_initial_porosity(flow, bridge.void_fraction());
-    if (flow.ghost) set_initial_ghost(flow, bridge.void_fraction());
+    if (flow.porosity) set_initial_porosity(flow, to_fine.void_fraction());
+    if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
     if (pressure_says_nothing(flow)) balance_pressure(flow);
     record.start(flow, &first.report);
     flow.time.writeNow();
@@ -95,15 +97,15 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   const bool replaces = link.plan().interface;
   ReplacementBooks replacement;
   std::vector<Droplet> droplets;
-  const auto solid_fraction_of = [&bridge](const Vec3& position, double volume) {
-    return bridge.solid_fraction_of(position, volume);
+  const auto solid_fraction_of = [&to_fine](const Vec3& position, double volume) {
+    return to_fine.solid_fraction_of(position, volume);
   };
   const auto fluid_message = [&] {
     const Stopwatch watch(seconds.mapping);
     FluidMessage fluid;
     fluid.means = bridge.bulk_fluid();
     if (link.plan().gradients) fluid.gradients = bridge.bulk_fluid_gradients();
-    if (replaces) fluid.interface = bridge.bulk_interface();
+    if (replaces) fluid.interface = bridge.fluid_to_bulk().interface();
     return fluid;
   };
   const auto take = [&](ParticleMessage particles) {
@@ -116,10 +118,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, link.end_time());
       replace_particles(flow, droplets, solid_fraction_of, replacement);
-      bridge.note(droplets);
-      bridge.spread_sources();  // the flux is fitted to the new window with its drag
-      if (flow.porosity) set_porosity_target(flow, bridge.void_fraction());
-      if (flow.ghost) set_ghost_target(flow, bridge.void_fraction(), bridge.solid_flux_density());
+      to_fine.note(droplets);
+      to_fine.spread_sources();  // the flux is fitted to the new window with its drag
+      if (flow.porosity) set_porosity_target(flow, to_fine.void_fraction());
+      if (flow.ghost) set_ghost_target(flow, to_fine.void_fraction(), to_fine.solid_flux_density());
       while (step_fluid(flow, &bridge)) {
       }
     }
@@ -133,10 +135,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     RunRecord::Window done;
     done.number = link.number();
     done.planned = link.plan().windows;
-    done.fluid.explicit_impulse = bridge.impulses().explicit_part;
-    done.fluid.implicit_impulse = bridge.impulses().implicit_part;
-    if (flow.porosity) done.fluid.fine_solid_volume = bridge.spread().solid_volume;
-    done.negative_cells = bridge.spread().negative_cells;
+    done.fluid.explicit_impulse = to_fine.impulses().explicit_part;
+    done.fluid.implicit_impulse = to_fine.impulses().implicit_part;
+    if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
+    done.negative_cells = to_fine.spread().negative_cells;
     if (replaces) done.replacement = replacement;
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.relaxation = bridge.relaxed().smallest;

@@ -6,7 +6,7 @@
 #include "coupler/grid/bulk_grid.hpp"
 #include "coupler/grid/cell_block.hpp"
 #include "coupler/transfer/mapping_parameters.hpp"
-#include "coupler/transfer/pieces.hpp"
+#include "coupler/transfer/mesh_cut.hpp"
 
 namespace demvof {
 

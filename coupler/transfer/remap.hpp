@@ -9,7 +9,7 @@
 #include "coupler/transfer/bulk_interpolation.hpp"
 #include "coupler/transfer/limited_slopes.hpp"
 #include "coupler/transfer/mapping_parameters.hpp"
-#include "coupler/transfer/pieces.hpp"
+#include "coupler/transfer/mesh_cut.hpp"
 
 namespace demvof {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "coupler/transfer/pieces.hpp"
+#include "coupler/transfer/mesh_cut.hpp"
 
 namespace demvof::test {
 

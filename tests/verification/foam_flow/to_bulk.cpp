@@ -86,10 +86,10 @@ Measured measure(const FoamCase& fluid, int n, Mapping mapping) {
     ++count;
   }
   measured.error /= count;
-  bridge.spread_sources();
-  measured.exchanged = norm(bridge.impulses().explicit_part + impulse) / norm(impulse);
-  bridge.void_fraction();
-  measured.solid = std::abs(bridge.spread().solid_volume / volume - 1);
+  bridge.particles_to_fine().spread_sources();
+  measured.exchanged = norm(bridge.particles_to_fine().impulses().explicit_part + impulse) / norm(impulse);
+  bridge.particles_to_fine().void_fraction();
+  measured.solid = std::abs(bridge.particles_to_fine().spread().solid_volume / volume - 1);
   return measured;
 }
 

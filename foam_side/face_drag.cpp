@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "foam_side/crowding.hpp"
+#include "foam_side/face_drag.hpp"
 
 #include "foam_side/flow.hpp"
 
@@ -22,11 +22,7 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> with_boundary(
 
 }  // namespace
 
-tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps) {
-  return 1.0 / fvc::interpolate(1.0 / eps);
-}
-
-Crowding::Crowding(const Flow& flow, const volScalarField& A)
+FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
     : eps_f("eps_f", flow.porosity ? face_void_fraction(flow.porosity->eps)
                                    : surfaceScalarField::New("eps_f", flow.mesh,
                                                              dimensionedScalar("one", Foam::dimless, 1))),

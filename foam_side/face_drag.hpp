@@ -30,9 +30,9 @@ struct Flow;
 /// In a uniform medium this is -a grad p.S. With one pressure gradient for both sides instead, the free
 /// fluid beside a bed is pushed by half the bed's pressure gradient (velocity errors of 125 % at
 /// k = 100; tests/verification/foam_flow/porous_plug.cpp).
-struct Crowding {
+struct FaceDrag {
   /// A: diagonal of the momentum matrix per volume, without drag, kg/(m3 s).
-  Crowding(const Flow& flow, const volScalarField& A);
+  FaceDrag(const Flow& flow, const volScalarField& A);
 
   surfaceScalarField eps_f;       // e, -
   surfaceScalarField resistance;  // kappa, -

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coupler/transfer/pieces.hpp"
+#include "coupler/transfer/mesh_cut.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// q_told += omega (q - q_told), q = u, grad p, Du/Dt; omega of relaxation.hpp.
+
+#include "coupler/exchange/told_fluid.hpp"
+
+#include <algorithm>
+
+#include "coupler/exchange/momentum_exchange.hpp"
+#include "coupler/exchange/relaxation.hpp"
+
+namespace demvof {
+
+namespace {
+
+void approach(Vec3& now, const Vec3& before, double omega) {
+  if (omega < 1) now = before + omega * (now - before);
+}
+
+}  // namespace
+
+double ToldFluid::factor(const BulkFluid& fluid, const BulkParticles& particles) const {
+  const double fluid_volume = fluid.void_fraction * parameters_.cell_volume;
+  const double gain = parameters_.fluid_moves ? making_way_gain(particles, fluid.density, fluid_volume) : 0;
+  const double response = hands_back_left_over(parameters_.exchange)
+                              ? particles.drag_response * parameters_.window / (fluid.density * fluid_volume)
+                              : 0;
+  return relaxation_factor(parameters_.schedule, gain, response);
+}
+
+void ToldFluid::relax(CellValues<BulkFluid>& fluid, const CellValues<BulkParticles>& particles) {
+  CellValues<Cell> told;
+  told.cells = fluid.cells;
+  factor_.assign(fluid.cells.size(), 1.0);
+  relaxed_ = {};
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
+    BulkFluid& cell = fluid.values[i];
+    const BulkParticles* here = find(particles, fluid.cells[i]);
+    const Cell* before = find(told_, fluid.cells[i]);
+    if (here && before) {
+      factor_[i] = factor(cell, *here);
+      approach(cell.velocity, before->velocity, factor_[i]);
+      approach(cell.pressure_gradient, before->pressure_gradient, factor_[i]);
+      relaxed_.smallest = std::min(relaxed_.smallest, factor_[i]);
+      relaxed_.cells += factor_[i] < 1;
+    }
+    told.values.push_back({cell.velocity, cell.pressure_gradient, before ? before->acceleration : Vec3{}});
+  }
+  told_ = std::move(told);
+}
+
+void ToldFluid::relax(CellValues<BulkFluidGradients>& gradients) {
+  std::size_t at = 0;  // gradients are there for the cells of the fluid, or for some of them
+  for (std::size_t i = 0; i < gradients.cells.size(); ++i) {
+    while (told_.cells[at] != gradients.cells[i]) ++at;
+    approach(gradients.values[i].acceleration, told_.values[at].acceleration, factor_[at]);
+    told_.values[at].acceleration = gradients.values[i].acceleration;
+  }
+}
+
+}  // namespace demvof

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "coupler/exchange/exchange_parameters.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+
+namespace demvof {
+
+/// What the particles are told of the fluid, on the bulk cells of one rank: the fluid as it is, or relaxed
+/// towards it from what they were told before (relaxation.hpp says by how much and why).
+class ToldFluid {
+ public:
+  struct Parameters {
+    Schedule schedule = Schedule::staggered;
+    ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
+    double window = 0;         // s
+    double cell_volume = 0;    // of a bulk cell, m3
+    bool fluid_moves = false;  // the fluid makes way for particles: porosity
+  };
+  explicit ToldFluid(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// Velocity and pressure gradient, relaxed in place; they count as told. particles: those that will hear
+  /// it. A cell whose particles were told nothing before is told the fluid as it is.
+  void relax(CellValues<BulkFluid>& fluid, const CellValues<BulkParticles>& particles);
+
+  /// The acceleration, after that, with the factors of the same cells.
+  void relax(CellValues<BulkFluidGradients>& gradients);
+
+  /// What the last telling came to.
+  struct Relaxed {
+    double smallest = 1;  // relaxation factor, -
+    long cells = 0;       // with a factor below 1
+  };
+  const Relaxed& relaxed() const { return relaxed_; }
+
+  /// What the particles of a bulk cell were last told.
+  struct Cell {
+    Vec3 velocity, pressure_gradient, acceleration;  // m/s, Pa/m, m/s2
+  };
+  const CellValues<Cell>& cells() const { return told_; }
+  void go_on_from(CellValues<Cell> told) { told_ = std::move(told); }
+
+ private:
+  double factor(const BulkFluid& fluid, const BulkParticles& particles) const;
+
+  Parameters parameters_;
+  CellValues<Cell> told_;
+  std::vector<double> factor_;  // of these, -
+  Relaxed relaxed_;
+};
+
+}  // namespace demvof

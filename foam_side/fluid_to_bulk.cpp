@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the fine mesh to the bulk grid (paper, section 6; docs/theory.md).
+//
+//   q_b = sum_f w_f V_fb q_f / sum_f w_f V_fb      V_fb: volume of fine cell f in bulk cell b
+//
+// with w of sharing_weights.hpp for velocity, acceleration and vorticity, so that density times acceleration
+// is that of the mixture; w = 1 for forces per volume (pressure gradient, stress), eps for density and
+// viscosity.
+//
+// In a fine cell that lies in several bulk cells u and grad p have a linear profile (conservative), so that
+// its pieces differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
+// centre of the bulk cell (sample_fluid.hpp).
+
+#include "foam_side/fluid_to_bulk.hpp"
+
+#include <cmath>
+
+#include "foam_side/cell_field.hpp"
+#include "foam_side/fine_mesh.hpp"
+#include "foam_side/fluid_gradients.hpp"
+#include "foam_side/sharing_weights.hpp"
+#include "leastSquaresGrad.H"
+
+namespace demvof {
+
+namespace {
+
+// Change of alpha across a fine cell from which on it holds interface: wisps and round-off do not.
+constexpr double least_change = 0.1;
+
+/// Sums over the fine cells of a bulk cell that give its BulkFluid.
+struct FluidSums {
+  Vec3 weighted_velocity;  // sum w V u
+  Vec3 weighted_rise;      // sum w V offset . grad u
+  double weight = 0;       // sum w V
+  Vec3 pressure_gradient;  // sum V grad p
+  double eps_rho = 0;      // sum V eps rho
+  double eps_mu = 0;       // sum V eps mu
+  double eps = 0;          // sum V eps
+  double volume = 0;       // sum V
+};
+
+/// The same for BulkFluidGradients.
+struct GradientSums {
+  BulkFluidGradients weighted;
+  double weight = 0, volume = 0;  // sum w V, sum V
+};
+
+BulkFluid mean(const FluidSums& sum) {
+  BulkFluid cell;
+  cell.velocity = sum.weighted_velocity / sum.weight;
+  cell.pressure_gradient = sum.pressure_gradient / sum.volume;
+  cell.density = sum.eps_rho / sum.eps;
+  cell.viscosity = sum.eps_mu / sum.eps;
+  cell.void_fraction = sum.eps / sum.volume;
+  return cell;
+}
+
+tmp<Foam::tensorField> slopes(const volVectorField& field) {
+  const tmp<Foam::volTensorField> slope =
+      Foam::fv::leastSquaresGrad<vector>(field.mesh()).calcGrad(field, "slopeOfBulk");
+  return tmp<Foam::tensorField>::New(slope().primitiveField());
+}
+
+}  // namespace
+
+FluidToBulk::FluidToBulk(const Flow& flow, const BulkCut& cut, const ForceParameters& forces, Sharing sharing)
+    : flow_(flow), cut_(cut), forces_(forces), sharing_(sharing) {
+  renew();
+}
+
+void FluidToBulk::renew() {
+  if (interpolates(cut_.to_bulk()))
+    sampler_ = std::make_unique<FluidSampler>(flow_.mesh, cut_.remap(), cut_.to_bulk());
+}
+
+CellValues<BulkFluid> FluidToBulk::means(CellValues<Vec3>& shift) const {
+  const std::vector<double> weight = sharing_weights(flow_, sharing_);
+  const Foam::vectorField gradient = pressure_gradient(flow_);
+  const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
+  tmp<Foam::tensorField> velocity_slope, gradient_slope;
+  if (cut_.has_profiles()) {
+    velocity_slope = slopes(flow_.U);
+    gradient_slope = slopes(
+        with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, gradient));
+  }
+  std::vector<FluidSums> sums(cut_.cells().cells().size());
+  for (const Piece& piece : cut_.pieces()) {
+    FluidSums& sum = sums[piece.slot];
+    const double eps = flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0;
+    const double v = piece.volume, eps_v = eps * v;
+    sum.weighted_velocity += weight[piece.fine] * v * to_vec3(flow_.U[piece.fine]);
+    sum.weight += weight[piece.fine] * v;
+    sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
+    sum.eps_rho += eps_v * density_between_particles(flow_, piece.fine);
+    sum.eps_mu += eps_v * viscosity()[piece.fine];
+    sum.eps += eps_v;
+    sum.volume += v;
+    if (!cut_.has_profiles()) continue;
+    const vector offset = to_foam(piece.offset);
+    sum.weighted_rise += weight[piece.fine] * v * to_vec3(offset & velocity_slope()[piece.fine]);
+    sum.pressure_gradient += v * to_vec3(offset & gradient_slope()[piece.fine]);
+  }
+  const CellValues<FluidSums> owned = cut_.cells().sum_to_owners(sums);
+  CellValues<BulkFluid> fluid;
+  shift = {};
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    if (!(owned.values[i].volume > 0)) continue;
+    fluid.cells.push_back(owned.cells[i]);
+    fluid.values.push_back(mean(owned.values[i]));
+    shift.values.push_back(fluid.values.back().velocity);
+    fluid.values.back().velocity += owned.values[i].weighted_rise / owned.values[i].weight;
+  }
+  if (sampler_) sample_points(gradient, viscosity, fluid);
+  shift.cells = fluid.cells;
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i)
+    shift.values[i] = fluid.values[i].velocity - shift.values[i];
+  return fluid;
+}
+
+/// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds
+/// keeps its means.
+void FluidToBulk::sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
+                                CellValues<BulkFluid>& fluid) const {
+  const CellValues<FluidSample> sums =
+      cut_.cells().sum_to_owners(sampler_->sample(flow_, gradient, viscosity));
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
+    while (sums.cells[at] != fluid.cells[i]) ++at;
+    const FluidSample& sum = sums.values[at];
+    if (sum.cells == 0) continue;
+    BulkFluid& cell = fluid.values[i];
+    cell.velocity = sum.velocity / sum.cells;
+    cell.pressure_gradient = sum.pressure_gradient / sum.cells;
+    cell.density = sum.density / sum.cells;
+    cell.viscosity = sum.viscosity / sum.cells;
+  }
+}
+
+CellValues<BulkFluidGradients> FluidToBulk::gradients() const {
+  const FluidGradients fine = fluid_gradients(flow_, forces_);
+  const std::vector<double> weight = sharing_weights(flow_, sharing_);
+  std::vector<GradientSums> sums(cut_.cells().cells().size());
+  for (const Piece& piece : cut_.pieces()) {
+    GradientSums& sum = sums[piece.slot];
+    const double v = piece.volume, w = weight[piece.fine] * v;
+    sum.weighted.stress_force += v * to_vec3(fine.stress_force[piece.fine]);
+    sum.weighted.acceleration += w * to_vec3(fine.acceleration[piece.fine]);
+    sum.weighted.vorticity += w * to_vec3(fine.vorticity[piece.fine]);
+    sum.weight += w;
+    sum.volume += v;
+  }
+  const CellValues<GradientSums> owned = cut_.cells().sum_to_owners(sums);
+  CellValues<BulkFluidGradients> bulk;
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    const GradientSums& sum = owned.values[i];
+    if (!(sum.volume > 0)) continue;  // as in means
+    bulk.cells.push_back(owned.cells[i]);
+    bulk.values.push_back({sum.weighted.stress_force / sum.volume, sum.weighted.acceleration / sum.weight,
+                           sum.weighted.vorticity / sum.weight});
+  }
+  return bulk;
+}
+
+CellValues<BulkInterface> FluidToBulk::interface() const {
+  const tmp<volVectorField> gradient = fvc::grad(flow_.alpha);
+  std::vector<BulkInterface> sums(cut_.cells().cells().size());
+  for (const Piece& piece : cut_.pieces()) {
+    const Vec3 steepness = to_vec3(gradient()[piece.fine]);
+    if (norm(steepness) * std::cbrt(flow_.mesh.V()[piece.fine]) < least_change) continue;
+    const double area = norm(steepness) * piece.volume;
+    BulkInterface& sum = sums[piece.slot];
+    sum.area += area;
+    sum.position += area * to_vec3(flow_.mesh.C()[piece.fine]);
+    sum.velocity += area * to_vec3(flow_.U[piece.fine]);
+    sum.gradient += piece.volume * steepness;
+  }
+  const CellValues<BulkInterface> owned = cut_.cells().sum_to_owners(sums);
+  CellValues<BulkInterface> holding;
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    if (owned.values[i].area == 0) continue;
+    holding.cells.push_back(owned.cells[i]);
+    holding.values.push_back(owned.values[i]);
+  }
+  return holding;
+}
+
+}  // namespace demvof

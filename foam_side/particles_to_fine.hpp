@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/exchange/crossing.hpp"
+#include "foam_side/bulk_cut.hpp"
+#include "foam_side/flow.hpp"
+
+namespace demvof {
+
+/// What the particles did in a window, on the fine mesh: void fraction and momentum sources of the flow. All
+/// calls are collective over the fluid side.
+class ParticlesToFine {
+ public:
+  ParticlesToFine(Flow& flow, const BulkCut& cut, const CouplingParameters& coupling);
+
+  /// When the mesh has been cut anew.
+  void renew() { distribute(); }
+
+  /// particles: cells owned by this rank, active in the cut. felt_shift: velocity that they were told, minus
+  /// the mean that the exchange works on, m/s.
+  void take(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift);
+
+  const CellValues<BulkParticles>& particles() const { return particles_; }
+
+  /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
+  /// particles leave no room for the fluid.
+  scalarField void_fraction() { return void_fraction_of(solid_volume_, spread_); }
+  /// The void fraction from what was taken the time before, less what has become liquid since: at the begin
+  /// of the present window.
+  scalarField void_fraction_before() const;
+  /// What became liquid, or took its place back, at the begin of the present window.
+  void note(const std::vector<Droplet>& droplets) { droplets_ = droplets; }
+  /// What the last void fraction came to, over all ranks.
+  struct Spread {
+    double solid_volume = 0;  // on the fine mesh, m3
+    long negative_cells = 0;  // fine cells in which an interpolation went below zero: they got none
+  };
+  const Spread& spread() const { return spread_; }
+
+  /// Solid fraction that one particle gives to each fine cell, with the kernel of coupling.averaging.
+  scalarField solid_fraction_of(const Vec3& position, double volume) const;
+
+  /// Solid volume times velocity of the particles, per volume of each fine cell, m/s (phase interchange
+  /// `volume_adding`).
+  Foam::vectorField solid_flux_density() const;
+
+  /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk cell with
+  /// the weights of sharing_weights.hpp, as they are now. In every fluid step.
+  void spread_sources();
+
+  /// What the implicit part of the sources took from the fluid of each bulk cell since begin_window or the
+  /// last call, N s: cells owned by this rank; none where nobody is owed anything. Before each change of the
+  /// mesh, because new cells cannot tell which bulk cell it came from.
+  CellValues<Vec3> collect_impulse();
+
+  /// The window's impulses are complete.
+  void end_window();
+
+  /// Impulses of the window just simulated, sums over all ranks, N s.
+  struct Impulses {
+    Vec3 explicit_part, implicit_part;
+  };
+  Impulses impulses() const;
+
+  /// What lives from one window to the next.
+  const CellValues<Vec3>& felt_shift() const { return felt_shift_; }
+  /// Goes on from the state at the end of a window. After the particles of that time have been taken.
+  void go_on_from(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift);
+
+ private:
+  void distribute();
+  scalarField void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const;
+
+  Flow& flow_;
+  const BulkCut& cut_;
+  const CouplingParameters& coupling_;
+  CellValues<BulkParticles> particles_;  // owned cells, as received
+  CellValues<double> solid_volume_;      // of these, m3
+  CellValues<double> solid_volume_before_;
+  std::vector<Droplet> droplets_;
+  Spread spread_;
+  CellValues<Vec3> felt_shift_;
+  std::vector<BulkParticles> touched_;     // per touched cell of the cut
+  std::vector<Vec3> felt_shift_here_;      // per touched cell; where the mapping makes one
+  std::vector<double> coefficient_part_;   // per piece of the cut: its part of the fine cell's coefficient, -
+  Vec3 collected_sum_, implicit_impulse_;  // what the fine cells got, this rank, N s: so far; in the window
+};
+
+}  // namespace demvof
