@@ -16,16 +16,6 @@
 namespace demvof {
 namespace {
 
-constexpr const char* rows_name = "demvof_fluid";
-constexpr const char* gradient_rows_name = "demvof_fluid_gradients";
-
-// LIGGGHTS keeps and moves the rows; Carried names the doubles in one of them.
-template <class Carried = CarriedFluid>
-Carried& carried_by(double* const* rows, int i) {
-  static_assert(std::is_standard_layout_v<Carried> && alignof(Carried) == alignof(double));
-  return *reinterpret_cast<Carried*>(rows[i]);
-}
-
 // A law as the particle loop has it: inlined, chosen once.
 using DragFunction = double(double diameter, double density, double viscosity, double slip, double eps);
 template <DragFunction* law>
@@ -89,8 +79,9 @@ void store(double* components, const Vec3& vector) {
 }  // namespace
 
 FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem), parameters_(parameters) {
-  dem_.add_particle_rows(rows_name, row_width<CarriedFluid>());
-  if (need_gradients(parameters)) dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradients>());
+  dem_.add_particle_rows(rows_name, row_width<CarriedRow>());
+  if (need_gradients(parameters))
+    dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradientsRow>());
   switch (parameters.drag) {
     case DragLaw::none:
       attach(NoDrag{});
@@ -121,6 +112,22 @@ void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diame
   own_wake_width_ = width;
 }
 
+/// beta of a fluid all around it; at the window's first step the drag's exponent as well.
+template <class Drag>
+double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip) {
+  const auto factor = [&](double speed, ClosureCount& count) {
+    return own_wake_width_
+               ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
+               : law.factor(fluid, diameter, speed, count);
+  };
+  const double beta = factor(slip, drag_count_);
+  if (fluid.drag_factor_sum == 0) {
+    ClosureCount further;
+    fluid.drag_exponent = drag_exponent(beta, factor((1 + tangent_step) * slip, further), tangent_step);
+  }
+  return beta;
+}
+
 template <class Drag>
 void FluidForces::attach(const Drag& drag_law) {
   if (need_gradients(parameters_))
@@ -146,34 +153,64 @@ void FluidForces::go_on_from(double window, int steps) {
   steps_ = steps;
 }
 
-void FluidForces::begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
+double* const* FluidForces::gradient_rows() const {
+  return need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
+}
+
+void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   const ParticleArrays particles = dem_.particles();
-  assert(static_cast<int>(fluid.size()) == particles.count);
+  assert(static_cast<int>(fluids.fluid[0].size()) == particles.count);
+  const bool two = !fluids.surface.empty();
   double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradient_rows =
-      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
+  double* const* gradients = gradient_rows();
   for (int i = 0; i < particles.count; ++i) {
-    const FluidAtParticle& here = fluid[i];
     if (own_wake_width_) require_spread(*own_wake_width_, 2 * particles.radius[i]);
     const double volume = sphere_volume(particles.radius[i]);
-    const double beta = mean_drag_factor(carried_by(rows, i));  // of the window that left something over
-    CarriedFluid carried;
-    carried.velocity = here.velocity;
-    carried.density = here.density;
-    carried.viscosity = here.viscosity;
-    carried.void_fraction = here.void_fraction;
-    if (parameters_.pressure_gradient) carried.pressure_force = -volume * here.pressure_gradient;
-    carried.left_over_force = beta / window * here.left_over_rate;
-    carried_by(rows, i) = carried;
-    if (gradient_rows)
-      carried_by<CarriedGradients>(gradient_rows, i) = {
-          volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
+    const CarriedRow before = carried_by(rows, i);
+    CarriedRow row;
+    for (int k = 0; k < (two ? 2 : 1); ++k) {
+      const FluidAtParticle& here = fluids.fluid[k][i];
+      const double beta = mean_drag_factor(before.fluid[k]);  // of the window that left something over
+      CarriedFluid& fluid = row.fluid[k];
+      fluid.velocity = here.velocity;
+      fluid.density = here.density;
+      fluid.viscosity = here.viscosity;
+      fluid.void_fraction = here.void_fraction;
+      if (parameters_.pressure_gradient) fluid.pressure_force = -volume * here.pressure_gradient;
+      fluid.left_over_force = beta / window * here.left_over_rate;
+      if (gradients)
+        carried_by<CarriedGradientsRow>(gradients, i).fluid[k] = {
+            volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
+    }
+    if (two) {
+      row.surface = carried_surface(fluids.surface[i], row.fluid[0].velocity);
+      for (int k = 0; k < 2; ++k)  // told of one fluid only: all of it is there
+        if (row.fluid[k].density == 0 && row.fluid[1 - k].density > 0) row.surface = {k == 0 ? 1.0 : 0.0, {}};
+    }
+    carried_by(rows, i) = row;
   }
   begun_ = true;
   window_ = window;
   steps_ = 0;
   force_sums_ = {};
   drag_count_ = lift_count_ = {};
+}
+
+void FluidForces::see_surface(const std::vector<SeenSurface>& surface) {
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    CarriedRow& row = carried_by(rows, static_cast<int>(i));
+    if (row.waits()) row.surface = carried_surface(surface[i], {});
+  }
+}
+
+void FluidForces::keep_to_reached_fluids(const std::function<bool(int, int)>& reached) {
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (int i = 0; i < dem_.particles().count; ++i) {
+    CarriedRow& row = carried_by(rows, i);
+    for (int k = 0; k < 2; ++k)
+      if (row.share(k) > 0 && !reached(k, i) && reached(1 - k, i)) row.surface = {k == 0 ? 1.0 : 0.0, {}};
+  }
 }
 
 Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
@@ -199,62 +236,82 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   const double step = dem_.time_step();
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradient_rows = with_gradients ? dem_.particle_rows(gradient_rows_name) : nullptr;
+  double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
   WindowImpulses sums;  // of this step alone: fewer numbers in one sum, less round-off
   for (int i = 0; i < particles.count; ++i) {
-    CarriedFluid& fluid = carried_by(rows, i);
-    const double mass = particles.mass[i], diameter = 2 * particles.radius[i];
+    CarriedRow& row = carried_by(rows, i);
+    const double mass = particles.mass[i], radius = particles.radius[i];
+    const Vec3 velocity = vec3(particles.velocity[i]);
     const bool moves = dem_.moves(particles.mask[i]);
     const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
     const Vec3 contact = vec3(particles.force[i]) - weight;
-    fluid.contact_steps += touches(contact, weight);
+    row.contacts.steps += touches(contact, weight);
     if (moves) {
-      fluid.contact_impulse += step * contact;
+      row.contacts.impulse += step * contact;
       sums.contact += contact;
       sums.gravity += weight;
       sums.constant += constant;
     }
     store(external[i], moves ? constant : Vec3{});
-    if (fluid.density == 0) continue;
+    if (row.waits()) continue;
 
-    const Vec3 slip = fluid.velocity - vec3(particles.velocity[i]);
-    const auto factor = [&](double speed, ClosureCount& count) {
-      return own_wake_width_
-                 ? without_own_wake(drag_law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
-                 : drag_law.factor(fluid, diameter, speed, count);
-    };
-    const double beta = factor(norm(slip), drag_count_);
-    if (steps_ == 0) {
-      ClosureCount further;
-      fluid.drag_exponent =
-          drag_exponent(beta, factor((1 + tangent_step) * norm(slip), further), tangent_step);
-    }
-    Vec3 steady = fluid.pressure_force + fluid.left_over_force;
-    Vec3 given;  // by the exchange: its reaction goes to the fluid
-    if constexpr (with_gradients) {
-      CarriedGradients& gradients = carried_by<CarriedGradients>(gradient_rows, i);
-      const double added = added_mass(fluid, particles.radius[i]);
-      const Vec3 across = lift(fluid, gradients, diameter, slip);
-      steady += gradients.stress_force;
-      sums.stress += gradients.stress_force;
-      Vec3 drag = beta * slip, acceleration;
-      if (moves) {
-        const Vec3 others = contact + weight + constant + steady + across + added * gradients.acceleration;
-        drag = implicit_drag(beta, slip, others, mass + added, step);
-        acceleration = (drag + others) / (mass + added);
+    const double wetted = move_surface(row.surface, velocity, radius, step);
+    struct Part {  // in one fluid
+      double beta = 0, added = 0;
+      Vec3 slip, across;
+    } parts[2];
+    double beta = 0, added = 0;
+    Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt
+    for (int k = 0; k < 2; ++k) {
+      CarriedFluid& fluid = row.fluid[k];
+      steady += fluid.left_over_force;
+      sums.left_over += fluid.left_over_force;
+      if (!row.feels(k)) continue;
+      Part& part = parts[k];
+      const double share = row.share(k);
+      part.slip = fluid.velocity - velocity;
+      part.beta = share * drag_factor(drag_law, fluid, 2 * radius, norm(part.slip));
+      fluid.drag_factor_sum += part.beta;
+      steady += share * fluid.pressure_force;
+      sums.pressure += share * fluid.pressure_force;
+      if constexpr (with_gradients) {
+        const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
+        part.added = added_mass(row, k, radius);
+        part.across = share * lift(fluid, gradients, 2 * radius, part.slip);
+        steady += share * gradients.stress_force;
+        sums.stress += share * gradients.stress_force;
+        accelerated += part.added * gradients.acceleration;
+        if (k == 0 && wetted > 0)
+          part.beta += parameters_.added_mass * (fluid.density - row.fluid[1].density) *
+                       sphere_volume(radius) * wetted / step;
       }
-      const Vec3 other = across + added * (gradients.acceleration - acceleration);
-      gradients.other_impulse += step * other;
-      given = drag + other;
-    } else {
-      const Vec3 others = contact + weight + constant + steady;
-      given = moves ? implicit_drag(beta, slip, others, mass, step) : beta * slip;
+      beta += part.beta;
+      added += part.added;
+      pull += part.beta * part.slip;
     }
-    fluid.drag_factor_sum += beta;
-    fluid.drag_impulse += step * given;
+    Vec3 drag = pull, acceleration;
+    if (moves) {
+      const Vec3 others =
+          contact + weight + constant + steady + parts[0].across + parts[1].across + accelerated;
+      if (beta > 0) drag = implicit_drag(beta, pull / beta, others, mass + added, step);
+      acceleration = (drag + others) / (mass + added);
+    }
+    Vec3 given;  // by the exchange: its reaction goes to the fluid
+    for (int k = 0; k < 2; ++k) {
+      if (!row.feels(k)) continue;
+      const Part& part = parts[k];
+      // Both fluids see the same mean velocity of the step.
+      Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
+      if constexpr (with_gradients) {
+        CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
+        const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
+        gradients.other_impulse += step * other;
+        of_fluid += other;
+      }
+      row.fluid[k].drag_impulse += step * of_fluid;
+      given += of_fluid;
+    }
     sums.drag += given;
-    sums.pressure += fluid.pressure_force;
-    sums.left_over += fluid.left_over_force;
     if (moves)
       store(external[i], given + steady + constant);
     else
@@ -264,61 +321,17 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   ++steps_;
 }
 
-std::vector<BulkParticles> FluidForces::contributions() const {
-  const ParticleArrays particles = dem_.particles();
-  std::vector<BulkParticles> contributions(particles.count);
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradient_rows =
-      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
-  for (int i = 0; i < particles.count; ++i) {
-    const CarriedFluid& fluid = carried_by(rows, i);
-    const double beta = mean_drag_factor(fluid), tangent = mean_drag_tangent(fluid);
-    const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? fluid.contact_steps / steps_ : 1;
-    const double added = added_mass(fluid, particles.radius[i]);
-    const double response = drag_response(tangent, particles.mass[i], window_, held, added);
-    BulkParticles& here = contributions[i];
-    here.solid_volume = sphere_volume(particles.radius[i]);
-    if (dem_.moves(particles.mask[i])) {
-      const double inertia = particles.mass[i] + added;
-      const double theta = inertial_share(tangent, inertia, window_);
-      // Added mass: grad p and rho Du/Dt push alike.
-      const double push = (1 + parameters_.added_mass) * here.solid_volume / inertia;
-      here.pressure_mobility = theta * here.solid_volume * push;
-      here.following_volume = (1 - theta) * here.solid_volume;
-    }
-    here.drag_impulse = fluid.drag_impulse;
-    here.drag_factor = beta;
-    here.drag_response = response;
-    here.drag_weighted_velocity = beta * vec3(particles.velocity[i]);
-    if (gradient_rows && window_ > 0)
-      here.drag_weighted_velocity -= carried_by<CarriedGradients>(gradient_rows, i).other_impulse / window_;
-    here.response_weighted_velocity = response * fluid.velocity;
-  }
-  return contributions;
-}
-
-std::vector<Support> FluidForces::support() const {
-  const ParticleArrays particles = dem_.particles();
-  std::vector<Support> support(particles.count);
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradient_rows =
-      need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
-  for (int i = 0; i < particles.count; ++i) {
-    const CarriedFluid& fluid = carried_by(rows, i);
-    const bool moves = dem_.moves(particles.mask[i]);
-    Vec3 others = fluid.pressure_force + fluid.left_over_force;
-    if (gradient_rows) others += carried_by<CarriedGradients>(gradient_rows, i).stress_force;
-    if (moves) others += parameters_.constant;
-    if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * dem_.gravity();
-    const double tangent = mean_drag_tangent(fluid), added = added_mass(fluid, particles.radius[i]);
-    support[i] = {fluid.contact_impulse, fluid.drag_impulse, window_ * others,
-                  drag_response(tangent, particles.mass[i], window_, moves ? 0 : 1, added)};
-  }
-  return support;
-}
-
-const CarriedFluid& FluidForces::carried(int i) const {
+const CarriedRow& FluidForces::carried(int i) const {
   return carried_by(dem_.particle_rows(rows_name), i);
+}
+
+Vec3 FluidForces::pressure_force(int i) const {
+  const CarriedRow& row = carried(i);
+  return row.share(0) * row.fluid[0].pressure_force + row.share(1) * row.fluid[1].pressure_force;
+}
+
+Vec3 FluidForces::drag_impulse(int i) const {
+  return carried(i).fluid[0].drag_impulse + carried(i).fluid[1].drag_impulse;
 }
 
 std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const {
@@ -338,7 +351,7 @@ long FluidForces::waiting_for_fluid() const {
   const int count = dem_.particles().count;
   double* const* rows = dem_.particle_rows(rows_name);
   long waiting = 0;
-  for (int i = 0; i < count; ++i) waiting += carried_by(rows, i).density == 0;
+  for (int i = 0; i < count; ++i) waiting += carried_by(rows, i).waits();
   return waiting;
 }
 

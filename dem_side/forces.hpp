@@ -3,13 +3,21 @@
 
 // Forces of the fluid on the particles, in every DEM step:
 //
-//   F_drag     = beta (u - v), integrated implicitly (implicit_drag.hpp)
-//   F_pressure = -V grad p       grad p of the total pressure: buoyancy is inside it
+//   F_drag     = sum_k a_k beta_k (u_k - v), integrated implicitly (implicit_drag.hpp)
+//   F_pressure = -V sum_k a_k grad p_k      grad p of the total pressure: buoyancy is inside it
 //   F_left     = M_i / window    impulse still owed from the exchange of the last window
 //   F_stress   = V (div tau + sigma kappa grad alpha), each part when it is named
 //   F_lift     = lift.hpp
-//   F_added    = m_a (Du/Dt - dv/dt), m_a = C_m rho V, implicit with the drag
+//   F_added    = sum_k m_ak (Du_k/Dt - dv/dt), m_ak = a_k C_m rho_k V, implicit with the drag
+//   F_entry    = (u_1 - v) dm_a/dt while the particle enters the liquid: what it takes along starts at the
+//                liquid's velocity. So (m + m_a) v is kept, v+/v- = (m + m_a-)/(m + m_a+)    (von Karman
+//                1929)
 //   F_constant the case file's
+//
+// k: liquid, gas; a_k: share of the particle's volume that lies in it, of the sphere and the surface's plane
+// at its present place (coupler/transfer/bulk_surface.hpp); without a surface a_1 = 1. The parts in the two
+// fluids see each its own fluid: velocity, density, viscosity, pressure gradient and void fraction are not
+// mixed.
 //
 // u and its derivatives, grad p, rho, mu and M_i are constant over a window, beta and v are not. What the
 // fluid gets back through the exchange is the reaction to drag, lift and added mass: they make up the
@@ -24,42 +32,27 @@
 // drag + pressure + left-over + stress + constant - held + contact + gravity, add up to its change to
 // round-off.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "coupler/base/sphere.hpp"
 #include "coupler/closures/force_parameters.hpp"
 #include "coupler/exchange/support.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/fluid_at_particle.hpp"
 #include "coupler/transfer/wake_width.hpp"
+#include "dem_side/carried_fluid.hpp"
 #include "dem_side/dem.hpp"
 
 namespace demvof {
 
-/// What a particle carries through a window, from rank to rank: what it feels and what it received.
-/// All zero for a particle that came into being during the window: no fluid acts on it yet.
-struct CarriedFluid {
-  Vec3 velocity;               // u, m/s
-  double density = 0;          // rho, kg/m3; 0: no fluid
-  double viscosity = 0;        // mu, Pa s
-  double void_fraction = 1;    // eps, -
-  Vec3 pressure_force;         // N
-  Vec3 left_over_force;        // N
-  Vec3 drag_impulse;           // received in this window, lift and added mass included, N s
-  double drag_factor_sum = 0;  // sum of beta over the steps of this window, kg/s
-  double drag_exponent = 1;    // n at the start of this window (implicit_drag.hpp), -
-  double contact_steps = 0;    // steps of this window with a force other than gravity
-  Vec3 contact_impulse;        // received from contacts in this window, N s
-};
-
-/// What it carries besides when a force needs the fluid's derivatives.
-struct CarriedGradients {
-  Vec3 stress_force;   // N
-  Vec3 acceleration;   // Du/Dt, m/s2
-  Vec3 vorticity;      // 1/s
-  Vec3 other_impulse;  // of the drag impulse, what lift and added mass gave, N s
+/// The fluids at each local particle at the start of a window: liquid and gas, or one fluid and nothing more.
+struct FluidsAtParticles {
+  std::vector<FluidAtParticle> fluid[2];
+  std::vector<SeenSurface> surface;  // empty: one fluid
 };
 
 /// Impulses of one window on this rank's particles, N s.
@@ -89,17 +82,32 @@ class FluidForces {
   /// For a run that goes on: what the particles carry is of a window (s) with so many DEM steps.
   void go_on_from(double window, int steps);
 
-  /// Starts a window with the fluid at each local particle. window: s.
-  void begin_window(const std::vector<FluidAtParticle>& fluid, double window);
+  /// Starts a window with the fluids at each local particle. window: s.
+  void begin_window(const FluidsAtParticles& fluids, double window);
+  /// The same with one fluid everywhere.
+  void begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
+    begin_window(FluidsAtParticles{{fluid, {}}, {}}, window);
+  }
 
-  /// What each local particle adds to the bulk grid at the end of the window, before weighting.
-  std::vector<BulkParticles> contributions() const;
+  /// Sets what the surface makes of local particles that felt no fluid yet: at the start, and when they are
+  /// new.
+  void see_surface(const std::vector<SeenSurface>& surface);
+  /// What of a particle lies in a fluid that it does not reach on the bulk grid counts in the other one.
+  /// reached(k, i): local particle i reaches a cell with fluid k.
+  void keep_to_reached_fluids(const std::function<bool(int, int)>& reached);
+
+  /// What each local particle adds to the bulk grid at the end of the window in fluid k, before weighting.
+  std::vector<BulkParticles> contributions(int k = 0) const;
 
   /// The same of what holds it.
-  std::vector<Support> support() const;
+  std::vector<Support> support(int k = 0) const;
 
   /// State of local particle i.
-  const CarriedFluid& carried(int i) const;
+  const CarriedRow& carried(int i) const;
+  /// -V sum_k a_k grad p_k on it, N.
+  Vec3 pressure_force(int i) const;
+  /// Drag, lift and added mass of both fluids in this window, N s.
+  Vec3 drag_impulse(int i) const;
   WindowImpulses impulses() const;
   /// The closures in use by name, with their counts in this window on this rank.
   std::vector<std::pair<std::string, ClosureCount>> closures() const;
@@ -113,12 +121,15 @@ class FluidForces {
   void attach(const Drag& drag_law);
   template <bool with_gradients, class Drag>
   void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
+  template <class Drag>
+  double drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip);
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   double mean_drag_factor(const CarriedFluid& fluid) const;
   double mean_drag_tangent(const CarriedFluid& fluid) const;
-  double added_mass(const CarriedFluid& fluid, double radius) const {  // kg
-    return parameters_.added_mass * fluid.density * sphere_volume(radius);
+  double added_mass(const CarriedRow& row, int k, double radius) const {  // kg
+    return parameters_.added_mass * row.share(k) * row.fluid[k].density * sphere_volume(radius);
   }
+  double* const* gradient_rows() const;  // nullptr when no force needs them
 
   Dem& dem_;
   ForceParameters parameters_;

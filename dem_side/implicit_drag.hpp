@@ -56,11 +56,12 @@ inline double inertial_share(double tangent, double inertia, double window) {
 /// goes by the tangent n beta of the drag, not by the secant beta. A free particle follows the fluid,
 /// (m/window)(1 - exp(-n beta window/(m + m_a))): of the momentum it gains the added mass m_a is the fluid's
 /// own. One held by contacts does not follow, n beta.
-/// contact_fraction: part of the window it spent in contact, 0 .. 1.
+/// contact_fraction: part of the window it spent in contact, 0 .. 1. other: tangent of the drag in the other
+/// fluid, which the particle follows as well, kg/s.
 inline double drag_response(double tangent, double mass, double window, double contact_fraction,
-                            double added_mass = 0) {
+                            double added_mass = 0, double other = 0) {
   const double inertia = mass + added_mass;
-  const double free = mass / inertia * tangent * mean_decay(tangent * window / inertia);
+  const double free = mass / inertia * tangent * mean_decay((tangent + other) * window / inertia);
   return contact_fraction * tangent + (1 - contact_fraction) * free;
 }
 

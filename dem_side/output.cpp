@@ -10,7 +10,6 @@ ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double w
   const Vec3 gravity = dem.gravity();
   ParticleFrame frame;
   for (int i = 0; i < particles.count; ++i) {
-    const CarriedFluid& fluid = forces.carried(i);
     Vec3 contact;
     if (dem.moves(particles.mask[i])) {
       contact = vec3(particles.force[i]) - vec3(fluid_force[i]);
@@ -20,27 +19,30 @@ ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double w
     frame.position.push_back(vec3(particles.position[i]));
     frame.velocity.push_back(vec3(particles.velocity[i]));
     frame.radius.push_back(particles.radius[i]);
-    frame.drag_force.push_back(fluid.drag_impulse / window);
-    frame.pressure_force.push_back(fluid.pressure_force);
+    frame.drag_force.push_back(forces.drag_impulse(i) / window);
+    frame.pressure_force.push_back(forces.pressure_force(i));
     frame.contact_force.push_back(contact);
   }
   return frame;
 }
 
-// Void fraction and drag are those of the end of the window, the fluid that of its start: cells that
-// became active in between show none.
-CellValues<BulkFrame> bulk_frame(const BulkGrid& grid, double window,
-                                 const CellValues<BulkParticles>& particles,
-                                 const CellValues<BulkFluid>& fluid) {
-  CellValues<BulkFrame> frame{particles.cells, std::vector<BulkFrame>(particles.cells.size())};
+// Void fraction and drag are those of the end of the window, both fluids together; the fluid, where there are
+// two the liquid, that of its start: cells that became active in between show none.
+CellValues<BulkFrame> bulk_frame(const BulkGrid& grid, double window, const Averaging& averaging,
+                                 const std::vector<CellValues<BulkFluid>>& fluids) {
+  const CellValues<double> solid = averaging.solid_volume();
+  CellValues<BulkFrame> frame{solid.cells, std::vector<BulkFrame>(solid.cells.size())};
   for (std::size_t i = 0; i < frame.cells.size(); ++i) {
     BulkFrame& here = frame.values[i];
-    here.void_fraction = 1 - particles.values[i].solid_volume / grid.cell_volume();
-    here.drag = -particles.values[i].drag_impulse / (window * grid.cell_volume());
-    const BulkFluid* cell = find(fluid, frame.cells[i]);
-    if (!cell) continue;
-    here.fluid_velocity = cell->velocity;
-    here.pressure_gradient = cell->pressure_gradient;
+    here.void_fraction = 1 - solid.values[i] / grid.cell_volume();
+    for (int k = averaging.fluids() - 1; k >= 0; --k) {
+      if (const BulkParticles* particles = find(averaging.in(k).deposited(), frame.cells[i]))
+        here.drag -= particles->drag_impulse / (window * grid.cell_volume());
+      const BulkFluid* cell = k < static_cast<int>(fluids.size()) ? find(fluids[k], frame.cells[i]) : nullptr;
+      if (!cell) continue;
+      here.fluid_velocity = cell->velocity;
+      here.pressure_gradient = cell->pressure_gradient;
+    }
   }
   return frame;
 }
@@ -55,9 +57,9 @@ Output::Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path
       bulk_(dem.world(), grid, folder, continued_from) {}
 
 void Output::write(double time, double window, const FluidForces& forces, const Averaging& averaging,
-                   const CellValues<BulkFluid>& fluid) {
+                   const std::vector<CellValues<BulkFluid>>& fluids) {
   particles_.write(time, particle_frame(dem_, forces, window));
-  bulk_.write(time, bulk_frame(grid_, window, averaging.deposited(), fluid));
+  bulk_.write(time, bulk_frame(grid_, window, averaging, fluids));
 }
 
 }  // namespace demvof

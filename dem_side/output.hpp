@@ -20,10 +20,10 @@ class Output {
   Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path& folder,
          std::optional<double> continued_from);
 
-  /// Writes what the particles and the bulk cells are at the end of a window. fluid: what the window was
+  /// Writes what the particles and the bulk cells are at the end of a window. fluids: what the window was
   /// simulated with. time, window: s. Collective.
   void write(double time, double window, const FluidForces& forces, const Averaging& averaging,
-             const CellValues<BulkFluid>& fluid);
+             const std::vector<CellValues<BulkFluid>>& fluids);
 
  private:
   const Dem& dem_;

@@ -88,10 +88,11 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
       extremes.front[axis] = std::max(extremes.front[axis], position[axis] + particles.radius[i]);
     extremes.max_speed = std::max(extremes.max_speed, norm(velocity));
   }
-  for (const BulkParticles& cell : averaging.deposited().values) {
-    sums.solid_volume_bulk += cell.solid_volume;
-    sums.drag_impulse_bulk += cell.drag_impulse;
-  }
+  for (int k = 0; k < averaging.fluids(); ++k)
+    for (const BulkParticles& cell : averaging.in(k).deposited().values) {
+      sums.solid_volume_bulk += cell.solid_volume;
+      sums.drag_impulse_bulk += cell.drag_impulse;
+    }
   sums.replaced_volume = replaced_volume;
   sums.impulses = forces.impulses();
   sums.waiting_for_fluid = static_cast<double>(forces.waiting_for_fluid());
@@ -128,9 +129,10 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
   report.gravity_impulse = sums.impulses.gravity;
   report.drag_impulse_bulk = sums.drag_impulse_bulk;
   report.left_over_unplaced = sums.unplaced_left_over;
-  report.relieved_cells = static_cast<double>(averaging.relief().cells);
-  report.relieved_volume = averaging.relief().volume;
-  report.unplaced_volume = averaging.relief().not_placed;
+  const SolidRelief relief = averaging.relief();
+  report.relieved_cells = static_cast<double>(relief.cells);
+  report.relieved_volume = relief.volume;
+  report.unplaced_volume = relief.not_placed;
   report.steps = forces.steps();
   report.dem_seconds = seconds.dem;
   report.averaging_seconds = seconds.averaging;

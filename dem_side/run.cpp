@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "coupler/base/mpi_check.hpp"
 #include "coupler/base/stopwatch.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
@@ -62,6 +63,12 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
       .dump();
 }
 
+bool any_rank(bool here, const OwnWorld& world) {
+  int any = here;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world.comm()), "MPI_Allreduce");
+  return any != 0;
+}
+
 }  // namespace
 
 int run_particles(const ProgramOptions& options, const OwnWorld& world) {
@@ -98,10 +105,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   run_stage().set("handshake");
   ParticleEnd link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
-  const auto deposit_at_their_places = [&](const std::vector<BulkParticles>& contributions) {
-    averaging.deposit(positions(dem.particles()), radii(dem.particles()), contributions);
-  };
-  deposit_at_their_places(forces.contributions());
+  const auto weigh = [&] { averaging.weigh(positions(dem.particles()), radii(dem.particles())); };
+  weigh();
+  averaging.in(0).deposit(forces.contributions());
   link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
                  facts(dem, forces, averaging, world));
   const WindowPlan& plan = link.receive_plan();
@@ -113,17 +119,29 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
 
   run_stage().set("first exchange");
   averaging.set_open_shares(link.open_shares());
+  if (plan.fluids > 1) averaging.see(link.surface());
+  const auto surface_at_particles = [&] {
+    return averaging.surface_at(positions(dem.particles()), radii(dem.particles()));
+  };
   double replaced_volume = 0;  // m3, of this rank
   const auto deposit = [&] {
-    std::vector<BulkParticles> contributions = forces.contributions();
-    if (replacement) replaced_volume = replacement->leave_out_replaced(contributions);
-    deposit_at_their_places(contributions);
-    CellValues<BulkParticles> deposited = averaging.deposited();
-    if (hands_back_left_over(coupling.exchange))  // uses responses
-      count_support(averaging.deposit_records(forces.support()), deposited);
-    return deposited;
+    weigh();
+    if (plan.fluids > 1) {
+      if (any_rank(forces.waiting_for_fluid() > 0, world)) forces.see_surface(surface_at_particles());
+      forces.keep_to_reached_fluids([&](int k, int i) { return averaging.in(k).reached_by(i); });
+    }
+    std::vector<CellValues<BulkParticles>> by_fluid;
+    replaced_volume = 0;
+    for (int k = 0; k < averaging.fluids(); ++k) {
+      std::vector<BulkParticles> contributions = forces.contributions(k);
+      if (replacement) replaced_volume += replacement->leave_out_replaced(contributions);
+      by_fluid.push_back(averaging.in(k).deposit(contributions));
+      if (hands_back_left_over(coupling.exchange))  // uses responses
+        count_support(averaging.in(k).deposit_records(forces.support(k)), by_fluid.back());
+    }
+    return by_fluid;
   };
-  const CellValues<BulkParticles> deposited = deposit();
+  const std::vector<CellValues<BulkParticles>> deposited = deposit();
   Report report(dem);
   survivor.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
@@ -136,10 +154,18 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     const FluidMessage fluid = link.fluid();
     {
       const Stopwatch watch(seconds.averaging);
-      forces.begin_window(averaging.sample(fluid.means, fluid.gradients ? &*fluid.gradients : nullptr),
-                          coupling.window);
+      FluidsAtParticles felt;
+      for (int k = 0; k < plan.fluids; ++k)
+        felt.fluid[k] =
+            averaging.in(k).sample(fluid.means[k], plan.gradients ? &fluid.gradients[k] : nullptr);
+      if (plan.fluids > 1) {
+        averaging.see(fluid.surface);
+        felt.surface = surface_at_particles();
+      }
+      forces.begin_window(felt, coupling.window);
     }
-    if (replacement) replacement->begin_window(averaging.sample_records(*fluid.interface), coupling.window);
+    if (replacement)
+      replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), coupling.window);
     run_stage().set("DEM steps");
     {
       const Stopwatch watch(seconds.dem);

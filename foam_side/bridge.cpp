@@ -1,72 +1,126 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/bridge.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace demvof {
+namespace {
+
+/// Cells with particles in any of the fluids.
+template <class List, class Cells>
+std::vector<CellId> united(const List& fluids, const Cells& cells_of) {
+  std::vector<CellId> all;
+  for (const auto& fluid : fluids) {
+    std::vector<CellId> more;
+    std::set_union(all.begin(), all.end(), cells_of(fluid).begin(), cells_of(fluid).end(),
+                   std::back_inserter(more));
+    all = std::move(more);
+  }
+  return all;
+}
+
+}  // namespace
 
 Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid,
                const BulkPartition& partition, MPI_Comm world)
     : cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
-      fluid_to_bulk_(flow, cut_, parameters.forces, parameters.coupling.sharing),
-      particles_to_fine_(flow, cut_, parameters.coupling),
-      told_({parameters.coupling.schedule, parameters.coupling.exchange, parameters.coupling.window,
-             grid.cell_volume(), flow.porosity != nullptr}) {}
+      surface_(flow, cut_),
+      fluid_to_bulk_(flow, cut_, surface_, parameters.forces, parameters.coupling.sharing),
+      particles_to_fine_(flow, cut_, surface_, parameters.coupling),
+      left_over_(surface_.fluids()),
+      told_(surface_.fluids(), ToldFluid({parameters.coupling.schedule, parameters.coupling.exchange,
+                                          parameters.coupling.window, flow.porosity != nullptr})),
+      shift_(surface_.fluids()) {}
 
 void Bridge::remap() {
   cut_.renew();
+  surface_.look();
   fluid_to_bulk_.renew();
   particles_to_fine_.renew();
 }
 
-void Bridge::take(CellValues<BulkParticles> particles) {
-  left_over_.return_to_fluid(particles);
-  cut_.activate(particles.cells);
-  particles_to_fine_.take(std::move(particles), shift_);
+void Bridge::take(std::vector<CellValues<BulkParticles>> particles) {
+  for (std::size_t k = 0; k < particles.size(); ++k) left_over_[k].return_to_fluid(particles[k]);
+  cut_.activate(united(
+      particles, [](const auto& fluid) -> const auto& { return fluid.cells; }));
+  std::vector<ParticlesToFine::InFluid> taken;
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    taken.push_back({std::move(particles[k]), shift_[k], {}});
+  particles_to_fine_.take(std::move(taken));
 }
 
 void Bridge::collect_impulse() {
-  left_over_.collect(particles_to_fine_.collect_impulse(), particles_to_fine_.particles());
+  const std::vector<CellValues<Vec3>> impulse = particles_to_fine_.collect_impulse();
+  for (std::size_t k = 0; k < impulse.size(); ++k)
+    left_over_[k].collect(impulse[k], particles_to_fine_.particles(static_cast<int>(k)));
 }
 
 void Bridge::end_window() {
   collect_impulse();
   particles_to_fine_.end_window();
-  left_over_.end_window(particles_to_fine_.particles());
+  for (std::size_t k = 0; k < left_over_.size(); ++k)
+    left_over_[k].end_window(particles_to_fine_.particles(static_cast<int>(k)));
 }
 
-CellValues<BulkFluid> Bridge::bulk_fluid() {
-  CellValues<BulkFluid> fluid = fluid_to_bulk_.means(shift_);
-  left_over_.hand_over(fluid);
-  told_.relax(fluid, particles_to_fine_.particles());
-  return fluid;
+std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
+  surface_.look();
+  std::vector<CellValues<BulkFluid>> fluids;
+  int k = 0;
+  for (FluidToBulk::Means& means : fluid_to_bulk_.means()) {
+    shift_[k] = {means.fluid.cells, std::move(means.shift)};
+    left_over_[k].hand_over(means.fluid);
+    told_[k].relax(means.fluid, means.fluid_volume, particles_to_fine_.particles(k));
+    fluids.push_back(std::move(means.fluid));
+    ++k;
+  }
+  return fluids;
 }
 
-CellValues<BulkFluidGradients> Bridge::bulk_fluid_gradients() {
-  CellValues<BulkFluidGradients> gradients = fluid_to_bulk_.gradients();
-  told_.relax(gradients);
+std::vector<CellValues<BulkFluidGradients>> Bridge::bulk_fluid_gradients() {
+  std::vector<CellValues<BulkFluidGradients>> gradients = fluid_to_bulk_.gradients();
+  for (std::size_t k = 0; k < gradients.size(); ++k) told_[k].relax(gradients[k]);
   return gradients;
 }
 
 CellId Bridge::active_cells() const {
-  return Foam::returnReduce(static_cast<label>(particles_to_fine_.particles().cells.size()),
-                            Foam::sumOp<label>());
+  const std::vector<CellId> cells = united(
+      particles_to_fine_.state(), [](const auto& fluid) -> const auto& { return fluid.particles.cells; });
+  return Foam::returnReduce(static_cast<label>(cells.size()), Foam::sumOp<label>());
 }
 
 ToldFluid::Relaxed Bridge::relaxed() const {
-  return {Foam::returnReduce(told_.relaxed().smallest, Foam::minOp<double>()),
-          Foam::returnReduce(told_.relaxed().cells, Foam::sumOp<long>())};
+  ToldFluid::Relaxed all;
+  for (const ToldFluid& told : told_) {
+    all.smallest = std::min(all.smallest, told.relaxed().smallest);
+    all.cells += told.relaxed().cells;
+  }
+  return {Foam::returnReduce(all.smallest, Foam::minOp<double>()),
+          Foam::returnReduce(all.cells, Foam::sumOp<long>())};
 }
 
-Bridge::State Bridge::state() const {
-  return {particles_to_fine_.particles(), left_over_.owed(), particles_to_fine_.felt_shift(), told_.cells()};
+std::vector<Bridge::State> Bridge::state() const {
+  std::vector<State> state;
+  for (std::size_t k = 0; k < told_.size(); ++k) {
+    const ParticlesToFine::InFluid& fluid = particles_to_fine_.state()[k];
+    state.push_back(
+        {fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells()});
+  }
+  return state;
 }
 
-void Bridge::go_on_from(State state) {
-  cut_.activate(state.particles.cells);
-  particles_to_fine_.go_on_from(std::move(state.particles), std::move(state.felt_shift));
-  left_over_.go_on_from(std::move(state.left_over));
-  told_.go_on_from(std::move(state.told));
+void Bridge::go_on_from(std::vector<State> state) {
+  cut_.activate(united(
+      state, [](const State& fluid) -> const auto& { return fluid.particles.cells; }));
+  std::vector<ParticlesToFine::InFluid> particles;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    particles.push_back({std::move(state[k].particles), std::move(state[k].felt_shift),
+                         std::move(state[k].solid_volume_before)});
+    left_over_[k].go_on_from(std::move(state[k].left_over));
+    told_[k].go_on_from(std::move(state[k].told));
+  }
+  particles_to_fine_.go_on_from(std::move(particles));
 }
 
 }  // namespace demvof

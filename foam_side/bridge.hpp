@@ -19,6 +19,7 @@ class Bridge {
          MPI_Comm world);
 
   const BulkCut& cut() const { return cut_; }
+  SurfaceToBulk& surface_to_bulk() { return surface_; }
   const FluidToBulk& fluid_to_bulk() const { return fluid_to_bulk_; }
   ParticlesToFine& particles_to_fine() { return particles_to_fine_; }
 
@@ -27,8 +28,8 @@ class Bridge {
 
   /// Takes what the particles sent at the end of their window; these cells are active from now on.
   /// Left-over impulse that the particles have run away from goes back to the fluid of its cell.
-  /// particles: cells owned by this rank.
-  void take(CellValues<BulkParticles> particles);
+  /// particles: cells owned by this rank, by fluid.
+  void take(std::vector<CellValues<BulkParticles>> particles);
 
   /// Notes what is owed to the particles so far. Before each change of the mesh.
   void collect_impulse();
@@ -38,10 +39,10 @@ class Bridge {
 
   /// The fluid on the active bulk cells owned by this rank, relaxed, and the impulse owed to their particles,
   /// which is theirs from now on.
-  CellValues<BulkFluid> bulk_fluid();
+  std::vector<CellValues<BulkFluid>> bulk_fluids();
 
-  /// Derivatives on the same cells, after bulk_fluid; only when a force needs them (need_gradients).
-  CellValues<BulkFluidGradients> bulk_fluid_gradients();
+  /// Derivatives on the same cells, after bulk_fluids; only when a force needs them (need_gradients).
+  std::vector<CellValues<BulkFluidGradients>> bulk_fluid_gradients();
 
   /// Over all ranks.
   CellId active_cells() const;
@@ -52,19 +53,22 @@ class Bridge {
     CellValues<BulkParticles> particles;
     CellValues<LeftOver::Owed> left_over;
     CellValues<Vec3> felt_shift;
+    CellValues<double> solid_volume_before;
     CellValues<ToldFluid::Cell> told;
   };
-  State state() const;
+  std::vector<State> state() const;  // by fluid
   /// Goes on from the state at the end of a window. After the particles of that time have been taken.
-  void go_on_from(State state);
+  void go_on_from(std::vector<State> state);
 
  private:
   BulkCut cut_;
+  SurfaceToBulk surface_;
   FluidToBulk fluid_to_bulk_;
   ParticlesToFine particles_to_fine_;
-  LeftOver left_over_;
-  ToldFluid told_;
-  CellValues<Vec3> shift_;  // velocity last told minus the mean that the exchange works on, m/s
+  // By fluid:
+  std::vector<LeftOver> left_over_;
+  std::vector<ToldFluid> told_;
+  std::vector<CellValues<Vec3>> shift_;  // velocity last told minus the mean that the exchange works on, m/s
 };
 
 }  // namespace demvof

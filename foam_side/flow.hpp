@@ -146,6 +146,10 @@ void begin_window(Flow& flow, double t_end);
 /// Throws if a box without a pressure boundary would have to change its fluid volume.
 void set_porosity_target(Flow& flow, const scalarField& eps);
 
+/// The void fraction that the particles prescribe for the end of the coming step, with the surface where it
+/// is now: inside a window with two fluids, after advect_interface. eps: one value per cell.
+void follow_surface(Flow& flow, const scalarField& eps);
+
 // ---- a time step, in this order ----------------------------------------------------------------
 
 bool advance_clock(Flow& flow);  // false at the window's end, or without windows at the run's end
@@ -196,8 +200,10 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow);
 /// exactly rho g in a fluid at rest.
 Foam::vectorField pressure_gradient(const Flow& flow);
 
-/// Effective (laminar and turbulent) dynamic viscosity of the mixture, Pa s, one value per cell.
+/// Effective (laminar and turbulent) dynamic viscosity, Pa s, one value per cell: of the mixture; of liquid
+/// (0) or gas (1) alone.
 tmp<scalarField> dynamic_viscosity(const Flow& flow);
+tmp<scalarField> dynamic_viscosity(const Flow& flow, int fluid);
 
 /// Density of the fluid between the particles, kg/m3: rho, less what stands for particles in it.
 double density_between_particles(const Flow& flow, label cell);

@@ -7,6 +7,14 @@
 // is that of the mixture; w = 1 for forces per volume (pressure gradient, stress), eps for density and
 // viscosity.
 //
+// Where the surface cuts a bulk cell, liquid (k = 0) and gas (k = 1) are told each by itself: V_fb becomes
+// the part of the piece that is k (surface_to_bulk.hpp), density and viscosity are those of k, and
+//
+//   grad p_k = mean over k of (grad p - rho g) + rho_k g
+//
+// so that what fine cells with both fluids have of the other's weight is left out: at rest a wet part feels
+// the liquid's hydrostatic gradient and a dry one the gas's, however the surface is smeared.
+//
 // In a fine cell that lies in several bulk cells u and grad p have a linear profile (conservative), so that
 // its pieces differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
 // centre of the bulk cell (sample_fluid.hpp).
@@ -64,8 +72,9 @@ tmp<Foam::tensorField> slopes(const volVectorField& field) {
 
 }  // namespace
 
-FluidToBulk::FluidToBulk(const Flow& flow, const BulkCut& cut, const ForceParameters& forces, Sharing sharing)
-    : flow_(flow), cut_(cut), forces_(forces), sharing_(sharing) {
+FluidToBulk::FluidToBulk(Flow& flow, const BulkCut& cut, const SurfaceToBulk& surface,
+                         const ForceParameters& forces, Sharing sharing)
+    : flow_(flow), cut_(cut), surface_(surface), forces_(forces), sharing_(sharing) {
   renew();
 }
 
@@ -74,7 +83,7 @@ void FluidToBulk::renew() {
     sampler_ = std::make_unique<FluidSampler>(flow_.mesh, cut_.remap(), cut_.to_bulk());
 }
 
-CellValues<BulkFluid> FluidToBulk::means(CellValues<Vec3>& shift) const {
+std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   const std::vector<double> weight = sharing_weights(flow_, sharing_);
   const Foam::vectorField gradient = pressure_gradient(flow_);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
@@ -84,82 +93,100 @@ CellValues<BulkFluid> FluidToBulk::means(CellValues<Vec3>& shift) const {
     gradient_slope = slopes(
         with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, gradient));
   }
-  std::vector<FluidSums> sums(cut_.cells().cells().size());
-  for (const Piece& piece : cut_.pieces()) {
-    FluidSums& sum = sums[piece.slot];
-    const double eps = flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0;
-    const double v = piece.volume, eps_v = eps * v;
-    sum.weighted_velocity += weight[piece.fine] * v * to_vec3(flow_.U[piece.fine]);
-    sum.weight += weight[piece.fine] * v;
-    sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
-    sum.eps_rho += eps_v * density_between_particles(flow_, piece.fine);
-    sum.eps_mu += eps_v * viscosity()[piece.fine];
-    sum.eps += eps_v;
-    sum.volume += v;
-    if (!cut_.has_profiles()) continue;
-    const vector offset = to_foam(piece.offset);
-    sum.weighted_rise += weight[piece.fine] * v * to_vec3(offset & velocity_slope()[piece.fine]);
-    sum.pressure_gradient += v * to_vec3(offset & gradient_slope()[piece.fine]);
+  std::vector<Means> all;
+  for (int k = 0; k < surface_.fluids(); ++k) {
+    const double rho_k = (k == 0 ? flow_.mixture.rho1() : flow_.mixture.rho2()).value();
+    const tmp<scalarField> viscosity_k =
+        surface_.fluids() > 1 ? dynamic_viscosity(flow_, k) : tmp<scalarField>(viscosity());
+    std::vector<FluidSums> sums(cut_.cells().cells().size());
+    for (const Piece& piece : cut_.pieces()) {
+      const double v = surface_.share(k, piece) * piece.volume;
+      if (v == 0) continue;
+      FluidSums& sum = sums[piece.slot];
+      const bool cut = surface_.is_cut(piece.slot);
+      const double w = sharing_weight(flow_, surface_, sharing_, k, piece, weight);
+      const double eps_v = (flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0) * v;
+      const double rho = density_between_particles(flow_, piece.fine);
+      sum.weighted_velocity += w * to_vec3(flow_.U[piece.fine]);
+      sum.weight += w;
+      sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
+      if (cut) sum.pressure_gradient += v * (rho_k - rho) * to_vec3(flow_.g.value());
+      sum.eps_rho += eps_v * (cut ? rho_k : rho);
+      sum.eps_mu += eps_v * (cut ? viscosity_k()[piece.fine] : viscosity()[piece.fine]);
+      sum.eps += eps_v;
+      sum.volume += v;
+      if (!cut_.has_profiles()) continue;
+      const vector offset = to_foam(piece.offset);
+      sum.weighted_rise += w * to_vec3(offset & velocity_slope()[piece.fine]);
+      if (!cut) sum.pressure_gradient += v * to_vec3(offset & gradient_slope()[piece.fine]);
+    }
+    const CellValues<FluidSums> owned = cut_.cells().sum_to_owners(sums);
+    Means& means = all.emplace_back();
+    for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+      const FluidSums& sum = owned.values[i];
+      if (!(sum.volume > 0)) continue;
+      means.fluid.cells.push_back(owned.cells[i]);
+      means.fluid.values.push_back(mean(sum));
+      means.shift.push_back(means.fluid.values.back().velocity);
+      means.fluid.values.back().velocity += sum.weighted_rise / sum.weight;
+      means.fluid_volume.push_back(sum.eps);
+    }
   }
-  const CellValues<FluidSums> owned = cut_.cells().sum_to_owners(sums);
-  CellValues<BulkFluid> fluid;
-  shift = {};
-  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
-    if (!(owned.values[i].volume > 0)) continue;
-    fluid.cells.push_back(owned.cells[i]);
-    fluid.values.push_back(mean(owned.values[i]));
-    shift.values.push_back(fluid.values.back().velocity);
-    fluid.values.back().velocity += owned.values[i].weighted_rise / owned.values[i].weight;
-  }
-  if (sampler_) sample_points(gradient, viscosity, fluid);
-  shift.cells = fluid.cells;
-  for (std::size_t i = 0; i < fluid.cells.size(); ++i)
-    shift.values[i] = fluid.values[i].velocity - shift.values[i];
-  return fluid;
+  if (sampler_) sample_points(gradient, viscosity, all);
+  for (Means& means : all)
+    for (std::size_t i = 0; i < means.shift.size(); ++i)
+      means.shift[i] = means.fluid.values[i].velocity - means.shift[i];
+  return all;
 }
 
-/// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds
-/// keeps its means.
+/// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds, or
+/// that the surface cuts, keeps its means.
 void FluidToBulk::sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
-                                CellValues<BulkFluid>& fluid) const {
-  const CellValues<FluidSample> sums =
-      cut_.cells().sum_to_owners(sampler_->sample(flow_, gradient, viscosity));
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
-    while (sums.cells[at] != fluid.cells[i]) ++at;
-    const FluidSample& sum = sums.values[at];
-    if (sum.cells == 0) continue;
-    BulkFluid& cell = fluid.values[i];
-    cell.velocity = sum.velocity / sum.cells;
-    cell.pressure_gradient = sum.pressure_gradient / sum.cells;
-    cell.density = sum.density / sum.cells;
-    cell.viscosity = sum.viscosity / sum.cells;
-  }
+                                std::vector<Means>& means) const {
+  std::vector<FluidSample> samples = sampler_->sample(flow_, gradient, viscosity);
+  for (std::size_t slot = 0; slot < samples.size(); ++slot)
+    if (surface_.is_cut(static_cast<int>(slot))) samples[slot] = {};
+  const CellValues<FluidSample> sums = cut_.cells().sum_to_owners(samples);
+  for (Means& of_fluid : means)
+    for (std::size_t i = 0; i < of_fluid.fluid.cells.size(); ++i) {
+      const FluidSample* sum = find(sums, of_fluid.fluid.cells[i]);
+      if (!sum || sum->cells == 0) continue;
+      BulkFluid& cell = of_fluid.fluid.values[i];
+      cell.velocity = sum->velocity / sum->cells;
+      cell.pressure_gradient = sum->pressure_gradient / sum->cells;
+      cell.density = sum->density / sum->cells;
+      cell.viscosity = sum->viscosity / sum->cells;
+    }
 }
 
-CellValues<BulkFluidGradients> FluidToBulk::gradients() const {
+std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
   const FluidGradients fine = fluid_gradients(flow_, forces_);
   const std::vector<double> weight = sharing_weights(flow_, sharing_);
-  std::vector<GradientSums> sums(cut_.cells().cells().size());
-  for (const Piece& piece : cut_.pieces()) {
-    GradientSums& sum = sums[piece.slot];
-    const double v = piece.volume, w = weight[piece.fine] * v;
-    sum.weighted.stress_force += v * to_vec3(fine.stress_force[piece.fine]);
-    sum.weighted.acceleration += w * to_vec3(fine.acceleration[piece.fine]);
-    sum.weighted.vorticity += w * to_vec3(fine.vorticity[piece.fine]);
-    sum.weight += w;
-    sum.volume += v;
+  std::vector<CellValues<BulkFluidGradients>> all;
+  for (int k = 0; k < surface_.fluids(); ++k) {
+    std::vector<GradientSums> sums(cut_.cells().cells().size());
+    for (const Piece& piece : cut_.pieces()) {
+      const double v = surface_.share(k, piece) * piece.volume;
+      if (v == 0) continue;
+      GradientSums& sum = sums[piece.slot];
+      const double w = sharing_weight(flow_, surface_, sharing_, k, piece, weight);
+      sum.weighted.stress_force += v * to_vec3(fine.stress_force[piece.fine]);
+      sum.weighted.acceleration += w * to_vec3(fine.acceleration[piece.fine]);
+      sum.weighted.vorticity += w * to_vec3(fine.vorticity[piece.fine]);
+      sum.weight += w;
+      sum.volume += v;
+    }
+    const CellValues<GradientSums> owned = cut_.cells().sum_to_owners(sums);
+    CellValues<BulkFluidGradients>& bulk = all.emplace_back();
+    for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+      const GradientSums& sum = owned.values[i];
+      if (!(sum.volume > 0)) continue;  // as in means
+      bulk.cells.push_back(owned.cells[i]);
+      bulk.values.push_back({sum.weighted.stress_force / sum.volume, sum.weighted.acceleration / sum.weight,
+                             sum.weighted.vorticity / sum.weight});
+    }
   }
-  const CellValues<GradientSums> owned = cut_.cells().sum_to_owners(sums);
-  CellValues<BulkFluidGradients> bulk;
-  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
-    const GradientSums& sum = owned.values[i];
-    if (!(sum.volume > 0)) continue;  // as in means
-    bulk.cells.push_back(owned.cells[i]);
-    bulk.values.push_back({sum.weighted.stress_force / sum.volume, sum.weighted.acceleration / sum.weight,
-                           sum.weighted.vorticity / sum.weight});
-  }
-  return bulk;
+  return all;
 }
 
 CellValues<BulkInterface> FluidToBulk::interface() const {

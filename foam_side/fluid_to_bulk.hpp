@@ -9,6 +9,7 @@
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/sample_fluid.hpp"
+#include "foam_side/surface_to_bulk.hpp"
 
 namespace demvof {
 
@@ -16,26 +17,33 @@ namespace demvof {
 /// return cells owned by this rank.
 class FluidToBulk {
  public:
-  FluidToBulk(const Flow& flow, const BulkCut& cut, const ForceParameters& forces, Sharing sharing);
+  FluidToBulk(Flow& flow, const BulkCut& cut, const SurfaceToBulk& surface, const ForceParameters& forces,
+              Sharing sharing);
 
   /// When the mesh has been cut anew.
   void renew();
 
-  /// left_over is not filled in. shift: velocity told minus the mean that the exchange works on, m/s.
-  CellValues<BulkFluid> means(CellValues<Vec3>& shift) const;
+  /// One of the fluids on the active bulk cells that hold it.
+  struct Means {
+    CellValues<BulkFluid> fluid;       // left_over is not filled in
+    std::vector<Vec3> shift;           // velocity told minus the mean that the exchange works on, m/s
+    std::vector<double> fluid_volume;  // of fluid k between the particles, m3
+  };
+  std::vector<Means> means() const;  // liquid, gas; or one fluid
 
   /// Derivatives, for the forces that need them (need_gradients), on the same cells.
-  CellValues<BulkFluidGradients> gradients() const;
+  std::vector<CellValues<BulkFluidGradients>> gradients() const;
 
   /// The interface, in the cells that hold one (phase interchange `replacement`).
   CellValues<BulkInterface> interface() const;
 
  private:
   void sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
-                     CellValues<BulkFluid>& fluid) const;
+                     std::vector<Means>& means) const;
 
-  const Flow& flow_;
+  Flow& flow_;
   const BulkCut& cut_;
+  const SurfaceToBulk& surface_;
   ForceParameters forces_;
   Sharing sharing_;
   std::unique_ptr<FluidSampler> sampler_;  // only for a mapping to the bulk grid that takes values at points

@@ -22,6 +22,7 @@
 #include "coupler/base/errors.hpp"
 #include "coupler/base/sphere.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
+#include "coupler/exchange/solid_in_fluids.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/sharing_weights.hpp"
@@ -34,45 +35,95 @@ namespace {
 // of spheres of one size leaves 0.26).
 constexpr double smallest_void_fraction = 0.05;
 
+CellValues<double> solid_volume(const CellValues<BulkParticles>& particles) {
+  CellValues<double> volume{particles.cells, {}};
+  for (const BulkParticles& cell : particles.values) volume.values.push_back(cell.solid_volume);
+  return volume;
+}
+
 }  // namespace
 
-ParticlesToFine::ParticlesToFine(Flow& flow, const BulkCut& cut, const CouplingParameters& coupling)
-    : flow_(flow), cut_(cut), coupling_(coupling) {
+ParticlesToFine::ParticlesToFine(Flow& flow, const BulkCut& cut, SurfaceToBulk& surface,
+                                 const CouplingParameters& coupling)
+    : flow_(flow), cut_(cut), surface_(surface), coupling_(coupling), state_(surface.fluids()) {
   distribute();
 }
 
-void ParticlesToFine::take(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift) {
-  particles_ = std::move(particles);
-  felt_shift_ = std::move(felt_shift);
-  solid_volume_before_ = std::move(solid_volume_);
-  solid_volume_ = {particles_.cells, std::vector<double>(particles_.values.size())};
-  for (std::size_t i = 0; i < particles_.values.size(); ++i)
-    solid_volume_.values[i] = particles_.values[i].solid_volume;
-  distribute();
+void ParticlesToFine::take(std::vector<InFluid> particles) {
+  // At the start the particles are where they were.
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    particles[k].before = solid_volume(taken_ ? state_[k].particles : particles[k].particles);
+  go_on_from(std::move(particles));
 }
 
-void ParticlesToFine::go_on_from(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift) {
-  particles_ = std::move(particles);
-  felt_shift_ = std::move(felt_shift);
+void ParticlesToFine::go_on_from(std::vector<InFluid> state) {
+  state_ = std::move(state);
+  taken_ = true;
   distribute();
 }
 
 void ParticlesToFine::distribute() {
   const TouchedCells& cells = cut_.cells();
-  touched_ = cells.fetch_from_owners(particles_, BulkParticles{});
-  if (cut_.shifts_velocity()) felt_shift_here_ = cells.fetch_from_owners(felt_shift_, Vec3{});
-  coefficient_part_.assign(cut_.pieces().size(), 0.0);
+  touched_.clear();
+  felt_shift_here_.clear();
+  for (const InFluid& fluid : state_) {
+    touched_.push_back(cells.fetch_from_owners(fluid.particles, BulkParticles{}));
+    if (cut_.shifts_velocity()) felt_shift_here_.push_back(cells.fetch_from_owners(fluid.felt_shift, Vec3{}));
+  }
+  coefficient_part_.assign(state_.size(), std::vector<double>(cut_.pieces().size(), 0.0));
 }
 
-scalarField ParticlesToFine::void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const {
-  const std::vector<double> solid_fraction =
-      cut_.remap().to_fine(cut_.cells().fetch_from_owners(solid_volume, 0.0), 1);
+/// volumes: solid volume by fluid and touched cell, m3.
+std::vector<double> ParticlesToFine::solid_fraction(const std::vector<std::vector<double>>& volumes) {
+  if (volumes.size() == 1) return cut_.remap().to_fine(volumes[0], 1);
+  surface_.look();
+  const std::vector<double>& room = cut_.remap().bulk_volume();
+  const std::vector<double> liquid = surface_.volumes(0), gas = surface_.volumes(1);
+  std::vector<double> whole(room.size());
+  std::vector<char> flat(room.size());
+  for (std::size_t slot = 0; slot < whole.size(); ++slot) {
+    whole[slot] = volumes[0][slot] + volumes[1][slot];
+    flat[slot] = surface_.is_cut(static_cast<int>(slot));
+  }
+  std::vector<double> fraction = cut_.remap().to_fine(whole, 1, flat);
+
+  // In cut cells: solid fraction in liquid and gas less the mean of both.
+  std::vector<SolidInFluids> inside(room.size());
+  for (std::size_t slot = 0; slot < inside.size(); ++slot) {
+    if (!flat[slot] || whole[slot] == 0) continue;
+    inside[slot] = solid_in_fluids(volumes[0][slot], volumes[1][slot], liquid[slot], gas[slot],
+                                   coupling_.averaging.maximum_solid_fraction);
+  }
+  for (const Piece& piece : cut_.remap().pieces()) {
+    const SolidInFluids& solid = inside[piece.slot];
+    if (!flat[piece.slot] || whole[piece.slot] == 0) continue;
+    const double share = piece.volume / flow_.mesh.V()[piece.fine];
+    fraction[piece.fine] +=
+        share * (surface_.share(0, piece) * solid.liquid + surface_.share(1, piece) * solid.gas -
+                 whole[piece.slot] / room[piece.slot]);
+    spread_.moved_volume += solid.moved * piece.volume / room[piece.slot];
+  }
+  return fraction;
+}
+
+scalarField ParticlesToFine::void_fraction(double part) {
+  spread_ = {};
+  std::vector<std::vector<double>> volumes;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    std::vector<double> here = cut_.cells().fetch_from_owners(solid_volume(state_[k].particles), 0.0);
+    if (part < 1) {
+      const std::vector<double> then = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
+      for (std::size_t slot = 0; slot < here.size(); ++slot)
+        here[slot] = (1 - part) * then[slot] + part * here[slot];
+    }
+    volumes.push_back(std::move(here));
+  }
+  const std::vector<double> solid = solid_fraction(volumes);
   scalarField eps(flow_.mesh.nCells());
-  spread = {};
   forAll(eps, cell) {
-    spread.negative_cells += solid_fraction[cell] < 0;
-    eps[cell] = 1 - std::max(solid_fraction[cell], 0.0);
-    spread.solid_volume += (1 - eps[cell]) * flow_.mesh.V()[cell];
+    spread_.negative_cells += solid[cell] < 0;
+    eps[cell] = 1 - std::max(solid[cell], 0.0);
+    spread_.solid_volume += (1 - eps[cell]) * flow_.mesh.V()[cell];
     if (eps[cell] >= smallest_void_fraction) continue;
     const vector& at = flow_.mesh.C()[cell];
     throw RunError(fmt::format(
@@ -81,18 +132,12 @@ scalarField ParticlesToFine::void_fraction_of(const CellValues<double>& solid_vo
         "coupling.averaging.maximum_solid_fraction.",
         eps[cell], at.x(), at.y(), at.z(), smallest_void_fraction));
   }
-  Foam::reduce(spread.solid_volume, Foam::sumOp<double>());
-  Foam::reduce(spread.negative_cells, Foam::sumOp<long>());
-  return eps;
-}
-
-scalarField ParticlesToFine::void_fraction_before() const {
-  Spread then;
-  scalarField eps(void_fraction_of(solid_volume_before_, then));
-  for (const Droplet& droplet : droplets_) {
-    const double volume = sphere_volume(droplet.radius);
-    eps += droplet.sign * solid_fraction_of(droplet.position, volume);
-  }
+  Foam::reduce(spread_.solid_volume, Foam::sumOp<double>());
+  Foam::reduce(spread_.negative_cells, Foam::sumOp<long>());
+  Foam::reduce(spread_.moved_volume, Foam::sumOp<double>());
+  for (const Droplet& droplet : droplets_)
+    if (part < 1)
+      eps += (1 - part) * droplet.sign * solid_fraction_of(droplet.position, sphere_volume(droplet.radius));
   return eps;
 }
 
@@ -123,12 +168,13 @@ scalarField ParticlesToFine::solid_fraction_of(const Vec3& position, double volu
 }
 
 Foam::vectorField ParticlesToFine::solid_flux_density() const {
-  std::vector<Vec3> totals(touched_.size());
-  for (std::size_t slot = 0; slot < totals.size(); ++slot) {
-    const BulkParticles& cell = touched_[slot];
-    if (cell.drag_factor > 0)  // mean velocity of its particles, weighted with their drag factors
-      totals[slot] = cell.solid_volume / cell.drag_factor * cell.drag_weighted_velocity;
-  }
+  std::vector<Vec3> totals(cut_.cells().cells().size());
+  for (const std::vector<BulkParticles>& touched : touched_)
+    for (std::size_t slot = 0; slot < totals.size(); ++slot) {
+      const BulkParticles& cell = touched[slot];
+      if (cell.drag_factor > 0)  // mean velocity of its particles, weighted with their drag factors
+        totals[slot] += cell.solid_volume / cell.drag_factor * cell.drag_weighted_velocity;
+    }
   std::vector<double> rows(3 * totals.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = totals[i / 3][static_cast<int>(i % 3)];
   const std::vector<double> density = cut_.remap().to_fine(rows, 3);
@@ -140,49 +186,65 @@ Foam::vectorField ParticlesToFine::solid_flux_density() const {
 void ParticlesToFine::spread_sources() {
   const std::vector<Piece>& pieces = cut_.pieces();
   const std::vector<double> weight = sharing_weights(flow_, coupling_.sharing);
-  std::vector<double> total(touched_.size());  // sum w V over the fine cells of a bulk cell
-  for (const Piece& piece : pieces) total[piece.slot] += weight[piece.fine] * piece.volume;
-  total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), 0.0);
-  std::vector<FluidSource> sources(touched_.size());
-  for (std::size_t slot = 0; slot < sources.size(); ++slot) {
-    sources[slot] = fluid_source(coupling_.exchange, touched_[slot], coupling_.window);
-    if (cut_.shifts_velocity()) sources[slot].reference_velocity -= felt_shift_here_[slot];
-  }
-
   ParticleSource& source = *flow_.source;
   source.force = Foam::dimensionedVector(source.force.dimensions(), Foam::Zero);
   source.coefficient = dimensionedScalar(source.coefficient.dimensions(), Foam::Zero);
   source.reference = Foam::dimensionedVector(source.reference.dimensions(), Foam::Zero);
   const auto& volume = flow_.mesh.V();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
-    const FluidSource& bulk = sources[piece.slot];
-    const double share = weight[piece.fine] * piece.volume / (total[piece.slot] * volume[piece.fine]);
-    coefficient_part_[i] = share * bulk.coefficient;
-    source.force[piece.fine] += share * to_foam(bulk.explicit_force);
-    source.coefficient[piece.fine] += coefficient_part_[i];
-    source.reference[piece.fine] += coefficient_part_[i] * to_foam(bulk.reference_velocity);
+  surface_.look();
+  for (int k = 0; k < surface_.fluids(); ++k) {
+    // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
+    // it.
+    struct Totals {
+      double own = 0, all = 0;
+    };
+    std::vector<Totals> total(touched_[k].size());
+    for (const Piece& piece : pieces) {
+      total[piece.slot].own += sharing_weight(flow_, surface_, coupling_.sharing, k, piece, weight);
+      total[piece.slot].all += weight[piece.fine] * piece.volume;
+    }
+    total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
+    std::vector<FluidSource> sources(touched_[k].size());
+    for (std::size_t slot = 0; slot < sources.size(); ++slot) {
+      sources[slot] = fluid_source(coupling_.exchange, touched_[k][slot], coupling_.window);
+      if (cut_.shifts_velocity()) sources[slot].reference_velocity -= felt_shift_here_[k][slot];
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Piece& piece = pieces[i];
+      const FluidSource& bulk = sources[piece.slot];
+      const Totals& sum = total[piece.slot];
+      const double part = sum.own > 0
+                              ? sharing_weight(flow_, surface_, coupling_.sharing, k, piece, weight) / sum.own
+                              : weight[piece.fine] * piece.volume / sum.all;
+      const double share = part / volume[piece.fine];
+      coefficient_part_[k][i] = share * bulk.coefficient;
+      source.force[piece.fine] += share * to_foam(bulk.explicit_force);
+      source.coefficient[piece.fine] += coefficient_part_[k][i];
+      source.reference[piece.fine] += coefficient_part_[k][i] * to_foam(bulk.reference_velocity);
+    }
   }
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const double whole = source.coefficient[pieces[i].fine];
-    coefficient_part_[i] = whole > 0 ? coefficient_part_[i] / whole : 0;
-  }
+  for (std::vector<double>& parts : coefficient_part_)
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const double whole = source.coefficient[pieces[i].fine];
+      parts[i] = whole > 0 ? parts[i] / whole : 0;
+    }
   forAll(source.coefficient, cell) if (source.coefficient[cell] > 0) source.reference[cell] /=
       source.coefficient[cell];
 }
 
-CellValues<Vec3> ParticlesToFine::collect_impulse() {
+std::vector<CellValues<Vec3>> ParticlesToFine::collect_impulse() {
   volVectorField::Internal& given = flow_.source->implicit_impulse;
   const auto& volume = flow_.mesh.V();
   forAll(given, cell) collected_sum_ += volume[cell] * to_vec3(given[cell]);
-  CellValues<Vec3> taken;
+  std::vector<CellValues<Vec3>> taken;
   if (hands_back_left_over(coupling_.exchange)) {
     const std::vector<Piece>& pieces = cut_.pieces();
-    std::vector<Vec3> impulse(touched_.size());
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      impulse[pieces[i].slot] -=
-          coefficient_part_[i] * volume[pieces[i].fine] * to_vec3(given[pieces[i].fine]);
-    taken = cut_.cells().sum_to_owners(impulse);
+    for (const std::vector<double>& parts : coefficient_part_) {
+      std::vector<Vec3> impulse(cut_.cells().cells().size());
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+        impulse[pieces[i].slot] -= parts[i] * volume[pieces[i].fine] * to_vec3(given[pieces[i].fine]);
+      taken.push_back(cut_.cells().sum_to_owners(impulse));
+    }
   }
   given = Foam::dimensionedVector(given.dimensions(), Foam::Zero);
   return taken;

@@ -7,6 +7,7 @@
 #include "coupler/exchange/crossing.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/surface_to_bulk.hpp"
 
 namespace demvof {
 
@@ -14,29 +15,34 @@ namespace demvof {
 /// calls are collective over the fluid side.
 class ParticlesToFine {
  public:
-  ParticlesToFine(Flow& flow, const BulkCut& cut, const CouplingParameters& coupling);
+  ParticlesToFine(Flow& flow, const BulkCut& cut, SurfaceToBulk& surface, const CouplingParameters& coupling);
 
   /// When the mesh has been cut anew.
   void renew() { distribute(); }
 
-  /// particles: cells owned by this rank, active in the cut. felt_shift: velocity that they were told, minus
-  /// the mean that the exchange works on, m/s.
-  void take(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift);
+  /// What the particles did in one of the fluids: cells owned by this rank, active in the cut.
+  struct InFluid {
+    CellValues<BulkParticles> particles;
+    // Velocity that they were told, minus the mean that the exchange works on, m/s.
+    CellValues<Vec3> felt_shift;
+    CellValues<double> before;  // solid volume of what was taken the time before, m3; take() fills it in
+  };
+  /// One entry per fluid: liquid, gas.
+  void take(std::vector<InFluid> particles);
 
-  const CellValues<BulkParticles>& particles() const { return particles_; }
+  const CellValues<BulkParticles>& particles(int k) const { return state_[k].particles; }
 
-  /// Solid volume of the bulk grid as void fraction of each fine cell. Throws RunError where the
-  /// particles leave no room for the fluid.
-  scalarField void_fraction() { return void_fraction_of(solid_volume_, spread_); }
-  /// The void fraction from what was taken the time before, less what has become liquid since: at the begin
-  /// of the present window.
-  scalarField void_fraction_before() const;
+  /// Solid volume of the bulk grid as void fraction of each fine cell, with the surface as it is now: what is
+  /// wet in the liquid, what is dry in the gas. part: of the window, 0 to 1. Throws RunError where the
+  /// particles leave no room for the fluid. At 0 less what has become liquid since.
+  scalarField void_fraction(double part = 1);
   /// What became liquid, or took its place back, at the begin of the present window.
   void note(const std::vector<Droplet>& droplets) { droplets_ = droplets; }
   /// What the last void fraction came to, over all ranks.
   struct Spread {
     double solid_volume = 0;  // on the fine mesh, m3
     long negative_cells = 0;  // fine cells in which an interpolation went below zero: they got none
+    double moved_volume = 0;  // that found no room in its own fluid of a bulk cell: it is in the other, m3
   };
   const Spread& spread() const { return spread_; }
 
@@ -54,7 +60,7 @@ class ParticlesToFine {
   /// What the implicit part of the sources took from the fluid of each bulk cell since begin_window or the
   /// last call, N s: cells owned by this rank; none where nobody is owed anything. Before each change of the
   /// mesh, because new cells cannot tell which bulk cell it came from.
-  CellValues<Vec3> collect_impulse();
+  std::vector<CellValues<Vec3>> collect_impulse();
 
   /// The window's impulses are complete.
   void end_window();
@@ -66,26 +72,27 @@ class ParticlesToFine {
   Impulses impulses() const;
 
   /// What lives from one window to the next.
-  const CellValues<Vec3>& felt_shift() const { return felt_shift_; }
+  const std::vector<InFluid>& state() const { return state_; }
   /// Goes on from the state at the end of a window. After the particles of that time have been taken.
-  void go_on_from(CellValues<BulkParticles> particles, CellValues<Vec3> felt_shift);
+  void go_on_from(std::vector<InFluid> state);
 
  private:
   void distribute();
-  scalarField void_fraction_of(const CellValues<double>& solid_volume, Spread& spread) const;
+  std::vector<double> solid_fraction(const std::vector<std::vector<double>>& volumes);
 
   Flow& flow_;
   const BulkCut& cut_;
+  SurfaceToBulk& surface_;
   const CouplingParameters& coupling_;
-  CellValues<BulkParticles> particles_;  // owned cells, as received
-  CellValues<double> solid_volume_;      // of these, m3
-  CellValues<double> solid_volume_before_;
+  bool taken_ = false;  // something, before
+  // By fluid:
+  std::vector<InFluid> state_;                         // as received
+  std::vector<std::vector<BulkParticles>> touched_;    // per touched cell of the cut
+  std::vector<std::vector<Vec3>> felt_shift_here_;     // per touched cell; where the mapping makes one
+  std::vector<std::vector<double>> coefficient_part_;  // per piece of the cut: its part of the fine cell's
+                                                       // coefficient, -
   std::vector<Droplet> droplets_;
   Spread spread_;
-  CellValues<Vec3> felt_shift_;
-  std::vector<BulkParticles> touched_;     // per touched cell of the cut
-  std::vector<Vec3> felt_shift_here_;      // per touched cell; where the mapping makes one
-  std::vector<double> coefficient_part_;   // per piece of the cut: its part of the fine cell's coefficient, -
   Vec3 collected_sum_, implicit_impulse_;  // what the fine cells got, this rank, N s: so far; in the window
 };
 

@@ -2,6 +2,9 @@
 // The void fraction through a window, and the flux that fits it.
 //
 //   goal(t) = goal(start) + rate (t - start),  rate = (target - goal(start)) / window
+// Where the surface cuts bulk cells the goal also follows the surface, step by step: what is wet stays in the
+// liquid, what is dry in the gas (particles_to_fine.cpp), and the rate is that of the coming step.
+//
 //   eps^{n+1} = eps^n - dt div(phi)            carried by the same flux as alpha (advect_interface)
 //   div(phi) = -(rate + (goal - eps)/dt)       what continuity asks for
 //
@@ -73,6 +76,11 @@ void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end
   porosity.eps.correctBoundaryConditions();
   porosity.goal.field() = goal;
   porosity.rate.field() = (end - begin) / (clock.window_end - clock.window_begin);
+}
+
+void follow_surface(Flow& flow, const scalarField& eps) {
+  Porosity& porosity = *flow.porosity;
+  porosity.rate.field() = (eps - porosity.goal.field()) / flow.time.deltaTValue();
 }
 
 void update_porosity(Flow& flow) {

@@ -82,11 +82,14 @@ void go_on(Flow& flow, const json& state) {
 
 void write_fluid_restart(const fs::path& run, long window, const Flow& flow, const ForceParameters& forces,
                          const Bridge& bridge, const RunRecord& record) {
-  const Bridge::State exchange = bridge.state();
-  const json state = {
-      {"flow", flow_state(flow, forces)},         {"particles", as_json(exchange.particles)},
-      {"left_over", as_json(exchange.left_over)}, {"felt_shift", as_json(exchange.felt_shift)},
-      {"told", as_json(exchange.told)},           {"books", record.books()}};
+  json exchange = json::array();
+  for (const Bridge::State& fluid : bridge.state())
+    exchange.push_back({{"particles", as_json(fluid.particles)},
+                        {"left_over", as_json(fluid.left_over)},
+                        {"felt_shift", as_json(fluid.felt_shift)},
+                        {"solid_volume_before", as_json(fluid.solid_volume_before)},
+                        {"told", as_json(fluid.told)}});
+  const json state = {{"flow", flow_state(flow, forces)}, {"exchange", exchange}, {"books", record.books()}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
@@ -99,10 +102,14 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
   try {
     std::ifstream stream(path, std::ios::binary);
     const json state = json::from_cbor(stream);
-    bridge.go_on_from({cell_values<BulkParticles>(state.at("particles")),
-                       cell_values<LeftOver::Owed>(state.at("left_over")),
-                       cell_values<Vec3>(state.at("felt_shift")),
-                       cell_values<ToldFluid::Cell>(state.at("told"))});
+    std::vector<Bridge::State> exchange;
+    for (const json& fluid : state.at("exchange"))
+      exchange.push_back({cell_values<BulkParticles>(fluid.at("particles")),
+                          cell_values<LeftOver::Owed>(fluid.at("left_over")),
+                          cell_values<Vec3>(fluid.at("felt_shift")),
+                          cell_values<double>(fluid.at("solid_volume_before")),
+                          cell_values<ToldFluid::Cell>(fluid.at("told"))});
+    bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));
   } catch (const json::exception& error) {

@@ -34,6 +34,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+/// 0 at the window's begin, 1 at its end and later.
+double part_of_window_after_next_step(const Flow& flow) {
+  const Clock& clock = flow.clock;
+  const double then = flow.time.value() + flow.time.deltaTValue();
+  return std::min(1.0, (then - clock.window_begin) / (clock.window_end - clock.window_begin));
+}
+
 /// One time step of the fluid; false when there is none left in the window or the run.
 bool step_fluid(Flow& flow, Bridge* bridge) {
   if (!advance_clock(flow)) return false;
@@ -43,14 +50,17 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   };
   if (refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
-    if (flow.porosity) renew_porosity(flow, bridge->particles_to_fine().void_fraction_before(),
-                     bridge->particles_to_fine().void_fraction());
+    if (flow.porosity)
+      renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
+                     bridge->particles_to_fine().void_fraction(1));
     settle_flux(flow);
   }
   update_porosity(flow);
   if (bridge) bridge->particles_to_fine().spread_sources();
   while (outer_corrector(flow)) {
     advect_interface(flow);
+    if (bridge && flow.porosity && flow.scene.two_fluids)
+      follow_surface(flow, bridge->particles_to_fine().void_fraction(part_of_window_after_next_step(flow)));
     predict_momentum(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
@@ -80,7 +90,9 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   run_stage().set("first void fraction");
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
   ParticlesToFine& to_fine = bridge.particles_to_fine();
-  FluidEnd::Start first = link.start(bridge.cut().open_shares());
+  FluidEnd::Start first =
+      link.start(bridge.cut().open_shares(),
+                 flow.scene.two_fluids ? bridge.surface_to_bulk().news() : CellValues<BulkSurface>{});
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
@@ -103,7 +115,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   const auto fluid_message = [&] {
     const Stopwatch watch(seconds.mapping);
     FluidMessage fluid;
-    fluid.means = bridge.bulk_fluid();
+    if (flow.scene.two_fluids) fluid.surface = bridge.surface_to_bulk().news();
+    fluid.means = bridge.bulk_fluids();
     if (link.plan().gradients) fluid.gradients = bridge.bulk_fluid_gradients();
     if (replaces) fluid.interface = bridge.fluid_to_bulk().interface();
     return fluid;

@@ -13,4 +13,11 @@ std::vector<double> sharing_weights(const Flow& flow, Sharing sharing) {
   return weight;
 }
 
+double sharing_weight(const Flow& flow, const SurfaceToBulk& surface, Sharing sharing, int k,
+                      const Piece& piece, const std::vector<double>& weight) {
+  const double volume = surface.share(k, piece) * piece.volume;
+  if (sharing == Sharing::volume || !surface.is_cut(piece.slot)) return weight[piece.fine] * volume;
+  return (flow.porosity ? flow.porosity->eps[piece.fine] : 1.0) * volume;
+}
+
 }  // namespace demvof

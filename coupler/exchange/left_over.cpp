@@ -2,6 +2,7 @@
 #include "coupler/exchange/left_over.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "coupler/exchange/momentum_exchange.hpp"
@@ -49,9 +50,18 @@ void LeftOver::return_to_fluid(CellValues<BulkParticles>& particles) {
 }
 
 void LeftOver::hand_over(CellValues<BulkFluid>& fluid) {
-  for (std::size_t i = 0; i < fluid.cells.size(); ++i)
-    if (const Owed* owed = find(owed_, fluid.cells[i])) fluid.values[i].left_over = owed->impulse;
-  owed_ = {};
+  CellValues<Owed> kept;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < owed_.cells.size(); ++i) {
+    while (at < fluid.cells.size() && fluid.cells[at] < owed_.cells[i]) ++at;
+    if (at < fluid.cells.size() && fluid.cells[at] == owed_.cells[i]) {
+      fluid.values[at].left_over = owed_.values[i].impulse;
+    } else if (norm(owed_.values[i].impulse) > 0) {
+      kept.cells.push_back(owed_.cells[i]);
+      kept.values.push_back({owed_.values[i].impulse, HUGE_VAL});  // no particle takes a part of it
+    }
+  }
+  owed_ = std::move(kept);
 }
 
 }  // namespace demvof

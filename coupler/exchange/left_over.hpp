@@ -12,7 +12,7 @@ class LeftOver {
  public:
   /// Owed to the particles of a bulk cell.
   struct Owed {
-    Vec3 impulse;            // N s
+    Vec3 impulse;             // N s
     double solid_volume = 0;  // sum of w V of those that left it over, m3
   };
 
@@ -27,7 +27,8 @@ class LeftOver {
   /// cell, as if they had been given so much less drag; cells that they have left are put in for it.
   void return_to_fluid(CellValues<BulkParticles>& particles);
 
-  /// Hands over what is owed, with the fluid of its cell; what has no cell there is dropped.
+  /// Hands over what is owed, with the fluid of its cell. What has no cell there (a surface has left it) goes
+  /// back to the fluid when the particles have moved on.
   void hand_over(CellValues<BulkFluid>& fluid);
 
   const CellValues<Owed>& owed() const { return owed_; }

@@ -18,16 +18,16 @@ void approach(Vec3& now, const Vec3& before, double omega) {
 
 }  // namespace
 
-double ToldFluid::factor(const BulkFluid& fluid, const BulkParticles& particles) const {
-  const double fluid_volume = fluid.void_fraction * parameters_.cell_volume;
-  const double gain = parameters_.fluid_moves ? making_way_gain(particles, fluid.density, fluid_volume) : 0;
+double ToldFluid::factor(double density, double fluid_volume, const BulkParticles& particles) const {
+  const double gain = parameters_.fluid_moves ? making_way_gain(particles, density, fluid_volume) : 0;
   const double response = hands_back_left_over(parameters_.exchange)
-                              ? particles.drag_response * parameters_.window / (fluid.density * fluid_volume)
+                              ? particles.drag_response * parameters_.window / (density * fluid_volume)
                               : 0;
   return relaxation_factor(parameters_.schedule, gain, response);
 }
 
-void ToldFluid::relax(CellValues<BulkFluid>& fluid, const CellValues<BulkParticles>& particles) {
+void ToldFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& fluid_volume,
+                      const CellValues<BulkParticles>& particles) {
   CellValues<Cell> told;
   told.cells = fluid.cells;
   factor_.assign(fluid.cells.size(), 1.0);
@@ -37,7 +37,7 @@ void ToldFluid::relax(CellValues<BulkFluid>& fluid, const CellValues<BulkParticl
     const BulkParticles* here = find(particles, fluid.cells[i]);
     const Cell* before = find(told_, fluid.cells[i]);
     if (here && before) {
-      factor_[i] = factor(cell, *here);
+      factor_[i] = factor(cell.density, fluid_volume[i], *here);
       approach(cell.velocity, before->velocity, factor_[i]);
       approach(cell.pressure_gradient, before->pressure_gradient, factor_[i]);
       relaxed_.smallest = std::min(relaxed_.smallest, factor_[i]);

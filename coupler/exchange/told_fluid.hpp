@@ -16,14 +16,15 @@ class ToldFluid {
     Schedule schedule = Schedule::staggered;
     ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
     double window = 0;         // s
-    double cell_volume = 0;    // of a bulk cell, m3
     bool fluid_moves = false;  // the fluid makes way for particles: porosity
   };
   explicit ToldFluid(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// Velocity and pressure gradient, relaxed in place; they count as told. particles: those that will hear
-  /// it. A cell whose particles were told nothing before is told the fluid as it is.
-  void relax(CellValues<BulkFluid>& fluid, const CellValues<BulkParticles>& particles);
+  /// Velocity and pressure gradient, relaxed in place; they count as told. fluid_volume: of these cells,
+  /// between the particles, m3; particles: those that will hear it. A cell whose particles were told nothing
+  /// before is told the fluid as it is.
+  void relax(CellValues<BulkFluid>& fluid, const std::vector<double>& fluid_volume,
+             const CellValues<BulkParticles>& particles);
 
   /// The acceleration, after that, with the factors of the same cells.
   void relax(CellValues<BulkFluidGradients>& gradients);
@@ -43,7 +44,7 @@ class ToldFluid {
   void go_on_from(CellValues<Cell> told) { told_ = std::move(told); }
 
  private:
-  double factor(const BulkFluid& fluid, const BulkParticles& particles) const;
+  double factor(double density, double fluid_volume, const BulkParticles& particles) const;
 
   Parameters parameters_;
   CellValues<Cell> told_;

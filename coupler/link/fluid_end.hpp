@@ -16,13 +16,14 @@ class FluidEnd : public PairEnd {
   /// After the handshake: the particles hear what they have to send and to expect.
   void send_plan(const WindowPlan& plan);
 
-  /// open_shares: the mesh's share in those bulk cells of this rank that it does not fill. Returned: the
+  /// open_shares: the mesh's share in those bulk cells of this rank that it does not fill.
+  /// surface: all cells that hold liquid, with two fluids. Returned: the
   /// particles before the first window.
   struct Start {
-    CellValues<BulkParticles> particles;
+    std::vector<CellValues<BulkParticles>> particles;  // by fluid
     ParticleReport report;
   };
-  Start start(const CellValues<double>& open_shares);
+  Start start(const CellValues<double>& open_shares, const CellValues<BulkSurface>& surface = {});
 
   /// One window: tells the particles the fluid, lets the fluid advance and takes what the particles did, in
   /// the order of the plan's schedule.

@@ -34,15 +34,19 @@ const WindowPlan& ParticleEnd::receive_plan() {
   return plan_;
 }
 
-FluidEnd::Start FluidEnd::start(const CellValues<double>& open_shares) {
+FluidEnd::Start FluidEnd::start(const CellValues<double>& open_shares,
+                                const CellValues<BulkSurface>& surface) {
   link_.send(open_shares);
+  if (plan_.fluids > 1) link_.send(surface);
   Start start;
-  start.particles = link_.receive<BulkParticles>();
+  for (int k = 0; k < plan_.fluids; ++k) start.particles.push_back(link_.receive<BulkParticles>());
   start.report = link_.receive_record<ParticleReport>();
   return start;
 }
-void ParticleEnd::start(const CellValues<BulkParticles>& particles, const ParticleReport& report) {
-  link_.send(particles);
+void ParticleEnd::start(const std::vector<CellValues<BulkParticles>>& particles,
+                        const ParticleReport& report) {
+  require_one_per_fluid(particles);
+  for (const CellValues<BulkParticles>& in_fluid : particles) link_.send(in_fluid);
   link_.send_record(report);
 }
 
@@ -50,15 +54,17 @@ void ParticleEnd::start(const CellValues<BulkParticles>& particles, const Partic
 
 void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& advance,
                       const std::function<void(ParticleMessage)>& take) {
-  require(plan_.gradients, fluid.gradients);
+  require_one_per_fluid(fluid.means);
+  if (plan_.gradients) require_one_per_fluid(fluid.gradients);
   require(plan_.interface, fluid.interface);
-  link_.send(fluid.means);
-  if (plan_.gradients) link_.send(*fluid.gradients);
+  if (plan_.fluids > 1) link_.send(fluid.surface);
+  for (const CellValues<BulkFluid>& means : fluid.means) link_.send(means);
+  for (int k = 0; k < plan_.fluids && plan_.gradients; ++k) link_.send(fluid.gradients[k]);
   if (plan_.interface) link_.send(*fluid.interface);
 
   const auto receive = [&] {
     ParticleMessage particles;
-    particles.sums = link_.receive<BulkParticles>();
+    for (int k = 0; k < plan_.fluids; ++k) particles.sums.push_back(link_.receive<BulkParticles>());
     if (plan_.interface) particles.droplets = link_.receive<Droplet>();
     take(std::move(particles));
   };
@@ -73,14 +79,17 @@ void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& ad
 }
 FluidMessage ParticleEnd::fluid() {
   FluidMessage fluid;
-  fluid.means = link_.receive<BulkFluid>();
-  if (plan_.gradients) fluid.gradients = link_.receive<BulkFluidGradients>();
+  if (plan_.fluids > 1) fluid.surface = link_.receive<BulkSurface>();
+  for (int k = 0; k < plan_.fluids; ++k) fluid.means.push_back(link_.receive<BulkFluid>());
+  for (int k = 0; k < plan_.fluids && plan_.gradients; ++k)
+    fluid.gradients.push_back(link_.receive<BulkFluidGradients>());
   if (plan_.interface) fluid.interface = link_.receive<BulkInterface>();
   return fluid;
 }
 void ParticleEnd::send(const ParticleMessage& particles) {
   require(plan_.interface, particles.droplets);
-  link_.send(particles.sums);
+  require_one_per_fluid(particles.sums);
+  for (const CellValues<BulkParticles>& in_fluid : particles.sums) link_.send(in_fluid);
   if (plan_.interface) link_.send(*particles.droplets);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,11 @@ class PairEnd {
   void close() { link_.close(); }
 
  protected:
+  template <class T>
+  void require_one_per_fluid(const std::vector<T>& messages) const {
+    if (static_cast<int>(messages.size()) != plan_.fluids)
+      throw std::logic_error("PairEnd: not one message per fluid of the plan");
+  }
   void start_with(const WindowPlan& plan) {
     plan_ = plan;
     number_ = plan.windows_before;

@@ -16,8 +16,10 @@ class ParticleEnd : public PairEnd {
 
   /// The fluid's share in those bulk cells of this rank that its mesh does not fill.
   CellValues<double> open_shares() { return link_.receive<double>(); }
+  /// With two fluids, after that: all cells that hold liquid.
+  CellValues<BulkSurface> surface() { return link_.receive<BulkSurface>(); }
   /// Ends the start: the particles before the first window.
-  void start(const CellValues<BulkParticles>& particles, const ParticleReport& report);
+  void start(const std::vector<CellValues<BulkParticles>>& particles, const ParticleReport& report);
 
   /// The fluid at the start of the window, whatever the schedule.
   FluidMessage fluid();

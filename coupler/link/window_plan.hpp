@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "coupler/exchange/crossing.hpp"
 #include "coupler/exchange/exchange_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/bulk_surface.hpp"
 
 namespace demvof {
 
@@ -13,24 +15,26 @@ namespace demvof {
 /// sends it after the handshake; nobody derives it anew.
 struct WindowPlan {
   Schedule schedule = Schedule::staggered;
-  bool gradients = false;      // BulkFluidGradients follow BulkFluid
-  bool interface = false;      // BulkInterface follows them, and Droplet BulkParticles
-  long windows = 0;            // of the whole run
-  long windows_before = 0;     // done by the run that this one continues
-  double window = 0;           // length, s
+  int fluids = 1;           // 2: BulkSurface comes first; then one message for the liquid and one for the gas
+  bool gradients = false;   // BulkFluidGradients follow BulkFluid
+  bool interface = false;   // BulkInterface follows them, and Droplet BulkParticles
+  long windows = 0;         // of the whole run
+  long windows_before = 0;  // done by the run that this one continues
+  double window = 0;        // length, s
   double output_interval = 0;  // both sides write their state at its multiples, s; 0: at the end alone
 };
 
 /// The fluid at the start of a window, on the active bulk cells; what the plan leaves out is not there.
 struct FluidMessage {
-  CellValues<BulkFluid> means;
-  std::optional<CellValues<BulkFluidGradients>> gradients;
+  CellValues<BulkSurface> surface;           // with two fluids: where it is, and where it was before
+  std::vector<CellValues<BulkFluid>> means;  // by fluid: liquid, gas
+  std::vector<CellValues<BulkFluidGradients>> gradients;  // by fluid, or none
   std::optional<CellValues<BulkInterface>> interface;
 };
 
 /// What the particles did in a window.
 struct ParticleMessage {
-  CellValues<BulkParticles> sums;
+  std::vector<CellValues<BulkParticles>> sums;  // by fluid
   std::optional<CellValues<Droplet>> droplets;
 };
 

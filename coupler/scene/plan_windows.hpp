@@ -15,6 +15,7 @@ inline WindowPlan plan_windows(const CaseParameters& parameters, const Scene& sc
   forces.capillary = forces.capillary && scene.surface_tension;
   WindowPlan plan;
   plan.schedule = parameters.coupling.schedule;
+  plan.fluids = scene.two_fluids ? 2 : 1;
   plan.gradients = need_gradients(forces);
   plan.interface = scene.interchange == PhaseInterchange::replacement;
   plan.window = parameters.coupling.window;

@@ -173,6 +173,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   Plan plan(forced, facts);
   Scene scene;
   scene.particles = plan.particles();
+  scene.two_fluids = facts.two_fluids;
   plan.forces(forces);
   scene.interface_advection = plan.interface_advection();
   scene.surface_tension = plan.surface_tension();

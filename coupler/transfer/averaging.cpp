@@ -2,27 +2,16 @@
 #include "coupler/transfer/averaging.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/grid/cell_block.hpp"
 
 namespace demvof {
 namespace {
-
-// What one bulk cell offers to a particle's mean; zero where there is no fluid.
-struct CellSample {
-  double fluid = 0;  // 1 with fluid
-  Vec3 velocity, pressure_gradient;
-  double density = 0, viscosity = 0, void_fraction = 0;
-  Vec3 left_over_rate;  // M / sum of w beta, m
-};
-
-struct GradientSample {
-  double fluid = 0;  // 1 with fluid
-  BulkFluidGradients gradients;
-};
 
 bool beyond_a_wall(const BulkGrid& grid, const Vec3& position) {
   for (int axis = 0; axis < 3; ++axis)
@@ -32,13 +21,49 @@ bool beyond_a_wall(const BulkGrid& grid, const Vec3& position) {
   return false;
 }
 
-template <class T>
-const double* rows(const std::vector<T>& values) {
-  return reinterpret_cast<const double*>(values.data());
+/// Share of the cell's fluid that counts as liquid.
+double seen_liquid(const BulkSurface& cell) {
+  if (cell.liquid_fraction <= least_seen_share) return 0;
+  return cell.liquid_fraction >= 1 - least_seen_share ? 1 : cell.liquid_fraction;
 }
-template <class T>
-double* rows(std::vector<T>& values) {
-  return reinterpret_cast<double*>(values.data());
+
+/// news into what is known, both sorted; cells without liquid are not kept.
+CellValues<BulkSurface> brought_up_to_date(const CellValues<BulkSurface>& known,
+                                           const CellValues<BulkSurface>& news) {
+  CellValues<BulkSurface> now;
+  const auto keep = [&now](CellId cell, const BulkSurface& surface) {
+    if (seen_liquid(surface) == 0) return;
+    now.cells.push_back(cell);
+    now.values.push_back(surface);
+  };
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < news.cells.size(); ++i) {
+    for (; at < known.cells.size() && known.cells[at] < news.cells[i]; ++at)
+      keep(known.cells[at], known.values[at]);
+    if (at < known.cells.size() && known.cells[at] == news.cells[i]) ++at;
+    keep(news.cells[i], news.values[i]);
+  }
+  for (; at < known.cells.size(); ++at) keep(known.cells[at], known.values[at]);
+  return now;
+}
+
+/// The bulk cells that a box around a particle meets, indices inside the grid.
+template <class Visit>
+void for_cells_within(const BulkGrid& grid, const Vec3& position, double reach, const Visit& visit) {
+  std::array<int, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double h = grid.spacing()[axis], low = grid.lower()[axis];
+    first[axis] = static_cast<int>(std::floor((position[axis] - reach - low) / h));
+    last[axis] = static_cast<int>(std::floor((position[axis] + reach - low) / h));
+  }
+  const auto inside = [&grid](int index, int axis) {
+    const int n = grid.cells()[axis];
+    return grid.periodic()[axis] ? ((index % n) + n) % n : std::clamp(index, 0, n - 1);
+  };
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        visit(std::array<int, 3>{inside(i, 0), inside(j, 1), inside(k, 2)});
 }
 
 }  // namespace
@@ -57,99 +82,126 @@ AveragingParameters with_bandwidth(AveragingParameters parameters, double larges
 Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                      const AveragingParameters& parameters)
     : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {
-  if (parameters_.kernel == Kernel::diffusion)
-    diffusion_.emplace(world_, grid_, partition_, parameters_.bandwidth);
+  fluids_.emplace_back(world_, grid_, partition_, parameters_);
 }
 
 void Averaging::set_open_shares(CellValues<double> open_share) {
   open_share_ = std::move(open_share);
-  int partial = open_share_.cells.empty() ? 0 : 1;
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &partial, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
-  all_open_ = partial == 0;
-  if (diffusion_ && !all_open_) diffusion_->set_open_shares(open_share_);
 }
 
-const CellValues<BulkParticles>& Averaging::deposit(const std::vector<Vec3>& positions,
-                                                    const std::vector<double>& radii,
-                                                    const std::vector<BulkParticles>& contributions) {
+void Averaging::see(const CellValues<BulkSurface>& news) {
+  if (fluids() == 1) fluids_.emplace_back(world_, grid_, partition_, parameters_);
+  surface_ = brought_up_to_date(surface_, news);
+}
+
+void Averaging::set_shares() {
+  if (fluids() == 1) return fluids_[0].set_shares(open_share_);
+  int rank;
+  check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
+  std::array<CellValues<double>, 2> share;
+  std::size_t open = 0, liquid = 0;
+  for (CellId cell = partition_.begin(rank); cell < partition_.end(rank); ++cell) {
+    const bool partly = open < open_share_.cells.size() && open_share_.cells[open] == cell;
+    const bool wet = liquid < surface_.cells.size() && surface_.cells[liquid] == cell;
+    const double whole = partly ? open_share_.values[open++] : 1;
+    const double fraction = wet ? seen_liquid(surface_.values[liquid++]) : 0;
+    const double of[] = {whole * fraction, whole * (1 - fraction)};
+    for (int fluid = 0; fluid < 2; ++fluid) {
+      if (of[fluid] == 1) continue;
+      share[fluid].cells.push_back(cell);
+      share[fluid].values.push_back(of[fluid]);
+    }
+  }
+  for (int fluid = 0; fluid < 2; ++fluid) fluids_[fluid].set_shares(std::move(share[fluid]));
+}
+
+void Averaging::weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
   outside_ = std::count_if(positions.begin(), positions.end(),
                            [&](const Vec3& position) { return beyond_a_wall(grid_, position); });
   weights_ = kernel_weights(grid_, parameters_, positions, radii, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
-  if (!all_open_) count_open_shares(touched_->fetch_from_owners(open_share_, 1.0), weights_);
+  set_shares();
+  for (AveragingInFluid& fluid : fluids_) fluid.weigh(weights_, *touched_);
+}
 
-  deposited_ = deposit_records(contributions);
-  relief_ =
-      limit_solid(world_, grid_, partition_, parameters_.maximum_solid_fraction, open_share_, deposited_);
-  return deposited_;
+std::vector<SeenSurface> Averaging::surface_at(const std::vector<Vec3>& positions,
+                                               const std::vector<double>& radii) const {
+  std::vector<SeenSurface> seen(positions.size());
+  if (fluids() == 1) return seen;
+  std::array<int, 3> first = grid_.cells(), last{-1, -1, -1};
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for_cells_within(grid_, positions[i], 2 * radii[i], [&](const std::array<int, 3>& ijk) {
+      for (int axis = 0; axis < 3; ++axis) {
+        first[axis] = std::min(first[axis], ijk[axis]);
+        last[axis] = std::max(last[axis], ijk[axis]);
+      }
+    });
+  if (positions.empty()) first = {0, 0, 0}, last = {-1, -1, -1};
+  CellBlock block(grid_, first, last);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for_cells_within(grid_, positions[i], 2 * radii[i],
+                     [&](const std::array<int, 3>& ijk) { block.mark(block.place(ijk)); });
+  const TouchedCells cells(world_, partition_, block.list_marked());
+  const std::vector<BulkSurface> surface = cells.fetch_from_owners(surface_, BulkSurface{});
+  const auto at = [&](const std::array<int, 3>& ijk) -> const BulkSurface& {
+    return surface[block.slot(block.place(ijk))];
+  };
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    double least = 1, most = 0;  // liquid in the cells around
+    for_cells_within(grid_, positions[i], 2 * radii[i], [&](const std::array<int, 3>& ijk) {
+      const double liquid = seen_liquid(at(ijk));
+      least = std::min(least, liquid);
+      most = std::max(most, liquid);
+    });
+    if (least == most && (least == 0 || least == 1))
+      seen[i].wetted = least;
+    else
+      seen[i] = see_surface(grid_, positions[i], radii[i], [&](CellId cell) { return at(grid_.ijk(cell)); });
+  }
+  return seen;
+}
+
+SolidRelief Averaging::relief() const {
+  SolidRelief sum;
+  for (const AveragingInFluid& fluid : fluids_) {
+    sum.cells += fluid.relief().cells;
+    sum.volume += fluid.relief().volume;
+    sum.not_placed += fluid.relief().not_placed;
+  }
+  return sum;
+}
+
+CellValues<double> Averaging::solid_volume() const {
+  CellValues<double> sum;
+  std::array<std::size_t, 2> next{};
+  for (;;) {
+    CellId cell = -1;
+    for (int fluid = 0; fluid < fluids(); ++fluid) {
+      const std::vector<CellId>& cells = fluids_[fluid].deposited().cells;
+      if (next[fluid] < cells.size() && (cell < 0 || cells[next[fluid]] < cell)) cell = cells[next[fluid]];
+    }
+    if (cell < 0) return sum;
+    sum.cells.push_back(cell);
+    sum.values.push_back(0);
+    for (int fluid = 0; fluid < fluids(); ++fluid) {
+      const CellValues<BulkParticles>& deposited = fluids_[fluid].deposited();
+      if (next[fluid] < deposited.cells.size() && deposited.cells[next[fluid]] == cell)
+        sum.values.back() += deposited.values[next[fluid]++].solid_volume;
+    }
+  }
 }
 
 double Averaging::largest_solid_fraction() const {
   double largest = 0;
-  for (const BulkParticles& cell : deposited_.values) largest = std::max(largest, cell.solid_volume);
+  for (const double volume : solid_volume().values) largest = std::max(largest, volume);
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
   return largest / grid_.cell_volume();
 }
 
-std::vector<FluidAtParticle> Averaging::sample(const CellValues<BulkFluid>& owned,
-                                               const CellValues<BulkFluidGradients>* gradients) {
-  CellValues<CellSample> offered{owned.cells, std::vector<CellSample>(owned.cells.size())};
-  unplaced_left_over_ = {};
-  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
-    const BulkFluid& fluid = owned.values[i];
-    CellSample& sample = offered.values[i];
-    if (fluid.density > 0)
-      sample = {
-          1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, fluid.void_fraction,
-          {}};
-
-    const BulkParticles* particles = find(deposited_, owned.cells[i]);
-    const double drag_factor = particles ? particles->drag_factor : 0;
-    if (drag_factor > 0)
-      sample.left_over_rate = fluid.left_over / drag_factor;
-    else
-      unplaced_left_over_ += fluid.left_over;
-  }
-
-  assert(touched_);
-  if (diffusion_) offered = diffusion_->gather(std::move(offered));
-  const std::vector<CellSample> cells = touched_->fetch_from_owners(offered, CellSample{});
-  std::vector<CellSample> means(weights_.particles());
-  demvof::sample(weights_, rows(cells), row_width<CellSample>(), rows(means));
-
-  std::vector<FluidAtParticle> at_particles(means.size());
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    const CellSample& mean = means[i];
-    if (mean.fluid > 0)
-      at_particles[i] = {mean.velocity / mean.fluid,
-                         mean.pressure_gradient / mean.fluid,
-                         mean.density / mean.fluid,
-                         mean.viscosity / mean.fluid,
-                         {},
-                         mean.void_fraction / mean.fluid};
-    at_particles[i].left_over_rate = mean.left_over_rate;
-  }
-  if (gradients) sample_gradients(owned, *gradients, at_particles);
-  return at_particles;
-}
-
-void Averaging::sample_gradients(const CellValues<BulkFluid>& owned,
-                                 const CellValues<BulkFluidGradients>& gradients,
-                                 std::vector<FluidAtParticle>& at_particles) {
-  assert(gradients.cells == owned.cells);
-  CellValues<GradientSample> offered{owned.cells, std::vector<GradientSample>(owned.cells.size())};
-  for (std::size_t i = 0; i < owned.cells.size(); ++i)
-    if (owned.values[i].density > 0) offered.values[i] = {1, gradients.values[i]};
-  if (diffusion_) offered = diffusion_->gather(std::move(offered));
-  const std::vector<GradientSample> cells = touched_->fetch_from_owners(offered, GradientSample{});
-  std::vector<GradientSample> means(weights_.particles());
-  demvof::sample(weights_, rows(cells), row_width<GradientSample>(), rows(means));
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    if (!(means[i].fluid > 0)) continue;
-    const BulkFluidGradients& mean = means[i].gradients;
-    at_particles[i].gradients = {mean.stress_force / means[i].fluid, mean.acceleration / means[i].fluid,
-                                 mean.vorticity / means[i].fluid};
-  }
+Vec3 Averaging::unplaced_left_over() const {
+  Vec3 sum;
+  for (const AveragingInFluid& fluid : fluids_) sum += fluid.unplaced_left_over();
+  return sum;
 }
 
 }  // namespace demvof

@@ -124,6 +124,27 @@ void count_open_shares(const std::vector<double>& share, KernelWeights& weights)
   }
 }
 
+KernelWeights weights_in_share(const KernelWeights& all, const std::vector<double>& share,
+                               KernelWeights storage) {
+  storage.cells = all.cells;
+  storage.first.assign(1, 0);
+  storage.slot.clear();
+  storage.weight.clear();
+  for (int particle = 0; particle < all.particles(); ++particle) {
+    double sum = 0;
+    for (int entry = all.first[particle]; entry < all.first[particle + 1]; ++entry)
+      sum += all.weight[entry] * share[all.slot[entry]];
+    for (int entry = all.first[particle]; sum > 0 && entry < all.first[particle + 1]; ++entry) {
+      const double weight = all.weight[entry] * share[all.slot[entry]];
+      if (weight == 0) continue;
+      storage.slot.push_back(all.slot[entry]);
+      storage.weight.push_back(weight / sum);
+    }
+    storage.first.push_back(static_cast<int>(storage.slot.size()));
+  }
+  return storage;
+}
+
 void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows) {
   std::fill_n(cell_rows, weights.cells.size() * width, 0.0);
   for (int particle = 0; particle < weights.particles(); ++particle) {

@@ -106,7 +106,8 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
     interpolation_ = BulkInterpolation(to_fine, grid, overlap.block, bulk_volume_, mesh.centre, pieces_);
 }
 
-std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width) const {
+std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width,
+                                   const std::vector<char>& flat) const {
   std::vector<double> means(totals.size(), 0.0);
   for (std::size_t slot = 0; slot < bulk_volume_.size(); ++slot)
     if (bulk_volume_[slot] > 0)
@@ -120,7 +121,7 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width)
     const double* mean = &means[std::size_t(piece.slot) * width];
     double* value = &fine[std::size_t(piece.fine) * width];
     for (int m = 0; m < width; ++m) value[m] += share * mean[m];
-    if (slope_of_[piece.slot] < 0) continue;
+    if (slope_of_[piece.slot] < 0 || (!flat.empty() && flat[piece.slot])) continue;
     const Vec3 offset = share * (piece.centroid - bulk_centroid_[piece.slot]);
     const Vec3* slope = &slopes[std::size_t(slope_of_[piece.slot]) * width];
     for (int m = 0; m < width; ++m) value[m] += dot(slope[m], offset);

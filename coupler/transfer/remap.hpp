@@ -45,7 +45,9 @@ class Remap {
   /// without fluid (bulk_volume 0) are not given to anybody. An interpolating mapping keeps none of these
   /// sums. Mapping::conservative: second order for smooth data; no value outside the range of the means in
   /// the bulk cell and the cells around it, so that totals >= 0 give a result >= 0.
-  std::vector<double> to_fine(const std::vector<double>& totals, int width) const;
+  /// flat: per touched bulk cell, not 0: its pieces get its mean (conservative); empty: nowhere.
+  std::vector<double> to_fine(const std::vector<double>& totals, int width,
+                              const std::vector<char>& flat = {}) const;
 
   /// This rank's part of sum over pieces of volume * weight_fine * value_piece, per touched bulk cell
   /// (cells x width). The caller sums over ranks with cells().sum_to_owners.

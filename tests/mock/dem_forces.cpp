@@ -13,7 +13,7 @@
 namespace demvof_test {
 namespace {
 
-using demvof::CarriedFluid;
+using demvof::CarriedRow;
 using demvof::FluidAtParticle;
 using demvof::FluidForces;
 using demvof::ForceParameters;
@@ -379,7 +379,7 @@ TEST(DemForces, LetInsertedParticlesWaitForTheNextWindow) {
   EXPECT_EQ(waiting(), inserted);
   const auto particles = scene.dem->particles();
   for (int i = 0; i < particles.count; ++i)
-    if (forces.carried(i).density == 0) {
+    if (forces.carried(i).waits()) {
       EXPECT_EQ(particles.velocity[i][0], 0);
     }
   window(*scene.dem, forces, syrup(1e-3, {1, 0, 0}), 1);

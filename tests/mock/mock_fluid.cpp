@@ -100,7 +100,7 @@ int play(const Options& options, OwnWorld& world) {
 
   const double solid_volume = facts.at("solid_volume");
   const FluidEnd::Start start = link.start({});  // water fills all bulk cells
-  CellValues<BulkParticles> particles = start.particles;
+  CellValues<BulkParticles> particles = start.particles[0];
   expect_near(total(particles, world).solid_volume, solid_volume, 1e-12 * solid_volume,
               "solid volume on the bulk grid", 0);
   expect_near(total(particles, world).drag_impulse, {}, 0, "drag impulse before the first window", 0);
@@ -110,17 +110,17 @@ int play(const Options& options, OwnWorld& world) {
   const double window = link.plan().window;
   while (link.next_window()) {
     const long n = link.number();
-    FluidMessage fluid{still_water(particles.cells, options), {}, {}};
+    FluidMessage fluid{{}, {still_water(particles.cells, options)}, {}, {}};
     Vec3 left_over;
     for (std::size_t i = 0; i < particles.cells.size(); ++i)
       if (particles.values[i].drag_factor > 0) {  // as with K_eff: nothing is left over without drag
-        fluid.means.values[i].left_over = {0, 0, -options.left_over};
-        left_over += fluid.means.values[i].left_over;
+        fluid.means[0].values[i].left_over = {0, 0, -options.left_over};
+        left_over += fluid.means[0].values[i].left_over;
       }
     MPI_Allreduce(MPI_IN_PLACE, &left_over, 3, MPI_DOUBLE, MPI_SUM, world.comm());
     if (n == options.killed_in_window) std::raise(SIGKILL);
     link.window(
-        fluid, [] {}, [&](ParticleMessage message) { particles = std::move(message.sums); });
+        fluid, [] {}, [&](ParticleMessage message) { particles = std::move(message.sums[0]); });
     report = link.close_window();
     if (link.writes()) link.both_have_written();
 

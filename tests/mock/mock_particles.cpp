@@ -150,15 +150,23 @@ int play(const Options& options, OwnWorld& world) {
 
   link.open_shares();
   rows = bed.at(static_cast<double>(plan.windows_before) * plan.window);
-  link.start(rows, bed.report({}, {}, rows, 0));
+  // The bed is wetted by the liquid alone: the stand-in is for one fluid, and for surfaces that it does not
+  // touch.
+  const auto in_liquid = [&plan](const CellValues<BulkParticles>& bed_rows) {
+    std::vector<CellValues<BulkParticles>> by_fluid(plan.fluids);
+    by_fluid[0] = bed_rows;
+    return by_fluid;
+  };
+  if (plan.fluids > 1) link.surface();
+  link.start(in_liquid(rows), bed.report({}, {}, rows, 0));
   while (link.next_window()) {
     const FluidMessage fluid = link.fluid();
     CellValues<BulkParticles> next = bed.at(link.end_time());
-    bed.feel(fluid.means, plan.window, next);
-    ParticleMessage done{next, {}};
+    bed.feel(fluid.means[0], plan.window, next);
+    ParticleMessage done{in_liquid(next), {}};
     if (plan.interface) done.droplets.emplace();
     link.send(done);
-    link.close_window(bed.report(rows, fluid.means, next, plan.window));
+    link.close_window(bed.report(rows, fluid.means[0], next, plan.window));
     rows = std::move(next);
     if (link.writes()) link.both_have_written();
   }

@@ -51,11 +51,12 @@ class Averager {
       contributions.emplace_back();
       contributions.back().drag_factor = all.value[i];
     }
-    averaging_.deposit(mine_.position, mine_.radius, contributions);
+    averaging_.weigh(mine_.position, mine_.radius);
+    averaging_.in(0).deposit(contributions);
   }
   /// All cells, on every rank.
   std::vector<double> deposit() const {
-    const CellValues<BulkParticles>& owned = averaging_.deposited();
+    const CellValues<BulkParticles>& owned = averaging_.in(0).deposited();
     std::vector<double> all(grid_.cell_count(), 0.0);
     for (std::size_t i = 0; i < owned.cells.size(); ++i) all[owned.cells[i]] = owned.values[i].drag_factor;
     return sum(all);
@@ -85,7 +86,7 @@ class Averager {
       put(fluid.values.back(), gradients.values.back(), cells[cell]);
     }
     gradients.cells = fluid.cells;
-    const std::vector<FluidAtParticle> felt = averaging_.sample(fluid, &gradients);
+    const std::vector<FluidAtParticle> felt = averaging_.in(0).sample(fluid, &gradients);
     std::vector<double> all(particles_, 0.0);
     for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = get(felt[i]);
     return sum(all);

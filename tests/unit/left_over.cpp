@@ -11,20 +11,20 @@ static bool operator==(const Vec3& a, const Vec3& b) {
 
 namespace {
 
-BulkParticles with_drag(double drag_factor) {
+BulkParticles with_solid(double solid_volume) {
   BulkParticles sum;
-  sum.drag_factor = drag_factor;
+  sum.solid_volume = solid_volume;
   return sum;
 }
 
-/// Cells 2, 4, 6 hold particles with drag factors 1, 2, 4; a window in two parts.
+/// Cells 2, 4, 6 hold particles with solid volumes 1, 2, 4; a window in two parts.
 struct Window {
   Window() {
     left_over.collect({{1, 2, 4}, {{9, 9, 9}, {1, 0, 0}, {0, 2, 0}}}, particles);
     left_over.collect({{2, 6, 8}, {{2, 0, 0}, {0, 0, 4}, {9, 9, 9}}}, particles);
     left_over.end_window(particles);
   }
-  CellValues<BulkParticles> particles{{2, 4, 6}, {with_drag(1), with_drag(2), with_drag(4)}};
+  CellValues<BulkParticles> particles{{2, 4, 6}, {with_solid(1), with_solid(2), with_solid(4)}};
   LeftOver left_over;
 };
 
@@ -41,7 +41,7 @@ TEST(LeftOver, AddsUpWhereParticlesAre) {
   EXPECT_EQ(owed.values[0].impulse, (Vec3{3, 0, 0}));
   EXPECT_EQ(owed.values[1].impulse, (Vec3{0, 2, 0}));
   EXPECT_EQ(owed.values[2].impulse, (Vec3{0, 0, 4}));
-  EXPECT_EQ(owed.values[2].drag_factor, 4);
+  EXPECT_EQ(owed.values[2].solid_volume, 4);
 }
 
 TEST(LeftOver, IsHandedOverOnceWithTheFluidOfItsCell) {
@@ -65,8 +65,8 @@ TEST(LeftOver, IsOwedAnewAfterEachWindow) {
 
 TEST(LeftOver, WhatNobodyTakesGoesBackToTheFluid) {
   Window window;
-  // Cell 2: as much drag as before; 4: a quarter of it; 6: nobody is left; 9: others.
-  CellValues<BulkParticles> moved{{2, 4, 9}, {with_drag(1), with_drag(0.5), with_drag(3)}};
+  // Cell 2: as many as before; 4: a quarter of it; 6: nobody is left; 9: others.
+  CellValues<BulkParticles> moved{{2, 4, 9}, {with_solid(1), with_solid(0.5), with_solid(3)}};
   moved.values[1].drag_impulse = {0, 10, 0};
   const Vec3 owed_before = sum(window.left_over.owed());
   window.left_over.return_to_fluid(moved);
@@ -74,8 +74,8 @@ TEST(LeftOver, WhatNobodyTakesGoesBackToTheFluid) {
   EXPECT_EQ(moved.values[0].drag_impulse, Vec3{});
   EXPECT_EQ(moved.values[1].drag_impulse, (Vec3{0, 10 - 1.5, 0}));
   EXPECT_EQ(moved.values[2].drag_impulse, (Vec3{0, 0, -4}));
-  EXPECT_EQ(moved.values[2].drag_factor, 0);
-  EXPECT_EQ(moved.values[3].drag_factor, 3);
+  EXPECT_EQ(moved.values[2].solid_volume, 0);
+  EXPECT_EQ(moved.values[3].solid_volume, 3);
   Vec3 returned{0, -10, 0};
   for (const BulkParticles& cell : moved.values) returned += cell.drag_impulse;
   EXPECT_EQ(sum(window.left_over.owed()) - returned, owed_before);
@@ -83,6 +83,17 @@ TEST(LeftOver, WhatNobodyTakesGoesBackToTheFluid) {
   window.left_over.hand_over(fluid);
   EXPECT_EQ(fluid.values[1].left_over, (Vec3{0, 0.5, 0}));
   EXPECT_EQ(fluid.values[2].left_over, Vec3{});
+}
+
+TEST(LeftOver, WhatTheFluidHasLeftGoesBackToIt) {
+  Window window;
+  CellValues<BulkFluid> fluid{{2, 6}, std::vector<BulkFluid>(2)};  // no such fluid in cell 4 any more
+  window.left_over.hand_over(fluid);
+  EXPECT_EQ(sum(window.left_over.owed()), (Vec3{0, 2, 0}));
+  CellValues<BulkParticles> moved{{4}, {with_solid(20)}};
+  window.left_over.return_to_fluid(moved);
+  EXPECT_EQ(moved.values[0].drag_impulse, (Vec3{0, -2, 0}));
+  EXPECT_EQ(sum(window.left_over.owed()), Vec3{});
 }
 
 TEST(LeftOver, GoesOnFromAState) {

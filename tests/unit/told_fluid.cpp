@@ -11,7 +11,7 @@ namespace {
 constexpr double cell_volume = 1e-6, window = 1e-3;
 
 ToldFluid::Parameters parameters(Schedule schedule, ExchangeScheme exchange, bool fluid_moves) {
-  return {schedule, exchange, window, cell_volume, fluid_moves};
+  return {schedule, exchange, window, fluid_moves};
 }
 
 BulkFluid fluid(double speed, double gradient) {
@@ -41,10 +41,10 @@ void expect_near(const Vec3& a, const Vec3& b) {
 struct Twice {
   explicit Twice(const ToldFluid::Parameters& p) : told(p) {
     CellValues<BulkFluid> first{{7}, {fluid(1, 100)}};
-    told.relax(first, heard);
+    told.relax(first, {0.5 * cell_volume}, heard);
     CellValues<BulkFluidGradients> slow{{7}, {{{1, 2, 3}, {5, 0, 0}, {4, 4, 4}}}};
     told.relax(slow);
-    told.relax(second, heard);
+    told.relax(second, {0.5 * cell_volume, 0.5 * cell_volume}, heard);
     told.relax(fast);
   }
   CellValues<BulkParticles> heard{{7}, {particles()}};
@@ -95,9 +95,9 @@ TEST(ToldFluid, CellsThatHearItForTheFirstTime) {
   ToldFluid told(parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true));
   const CellValues<BulkParticles> heard{{3, 5}, {particles(), particles()}};
   CellValues<BulkFluid> first{{3}, {fluid(1, 100)}};
-  told.relax(first, heard);
+  told.relax(first, {0.5 * cell_volume}, heard);
   CellValues<BulkFluid> second{{3, 5}, {fluid(2, 100), fluid(2, 100)}};
-  told.relax(second, heard);
+  told.relax(second, {0.5 * cell_volume, 0.5 * cell_volume}, heard);
   EXPECT_LT(second.values[0].velocity.x, 2);
   EXPECT_EQ(second.values[1].velocity.x, 2);
   EXPECT_EQ(told.relaxed().cells, 1);
@@ -111,9 +111,9 @@ TEST(ToldFluid, CellsThatHearItForTheFirstTime) {
 TEST(ToldFluid, NobodyThereHearsItAsItIs) {
   ToldFluid told(parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true));
   CellValues<BulkFluid> cell{{3}, {fluid(1, 100)}};
-  told.relax(cell, {});
+  told.relax(cell, {0.5 * cell_volume}, {});
   cell = {{3}, {fluid(2, 200)}};
-  told.relax(cell, {});
+  told.relax(cell, {0.5 * cell_volume}, {});
   EXPECT_EQ(cell.values[0].velocity.x, 2);
 }
 
@@ -122,11 +122,11 @@ TEST(ToldFluid, GoesOnFromAState) {
   const CellValues<BulkParticles> heard{{7}, {particles()}};
   ToldFluid once(p), again(p);
   CellValues<BulkFluid> first{{7}, {fluid(1, 100)}};
-  once.relax(first, heard);
+  once.relax(first, {0.5 * cell_volume}, heard);
   again.go_on_from(once.cells());
   CellValues<BulkFluid> a{{7}, {fluid(3, 500)}}, b = a;
-  once.relax(a, heard);
-  again.relax(b, heard);
+  once.relax(a, {0.5 * cell_volume}, heard);
+  again.relax(b, {0.5 * cell_volume}, heard);
   EXPECT_EQ(a.values[0].velocity.x, b.values[0].velocity.x);
   EXPECT_LT(b.values[0].velocity.x, 3);
 }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/transfer/averaging_in_fluid.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "coupler/base/mpi_check.hpp"
+
+namespace demvof {
+namespace {
+
+// What one bulk cell offers to a particle's mean; zero where there is no fluid.
+struct CellSample {
+  double fluid = 0;  // 1 with fluid
+  Vec3 velocity, pressure_gradient;
+  double density = 0, viscosity = 0, void_fraction = 0;
+  Vec3 left_over_rate;  // M / sum of w beta, m
+};
+
+struct GradientSample {
+  double fluid = 0;  // 1 with fluid
+  BulkFluidGradients gradients;
+};
+
+}  // namespace
+
+AveragingInFluid::AveragingInFluid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+                                   const AveragingParameters& parameters)
+    : world_(world),
+      grid_(grid),
+      partition_(partition),
+      maximum_solid_fraction_(parameters.maximum_solid_fraction) {
+  if (parameters.kernel == Kernel::diffusion)
+    diffusion_.emplace(world_, grid_, partition_, parameters.bandwidth);
+}
+
+void AveragingInFluid::set_shares(CellValues<double> share) {
+  share_ = std::move(share);
+  int partial = share_.cells.empty() ? 0 : 1;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &partial, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
+  everywhere_ = partial == 0;
+  if (diffusion_ && !everywhere_) diffusion_->set_open_shares(share_);
+}
+
+void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& touched) {
+  touched_ = &touched;
+  if (everywhere_)
+    weights_ = weights;
+  else
+    weights_ = weights_in_share(weights, touched.fetch_from_owners(share_, 1.0), std::move(weights_));
+}
+
+const CellValues<BulkParticles>& AveragingInFluid::deposit(const std::vector<BulkParticles>& contributions) {
+  deposited_ = deposit_records(contributions);
+  relief_ = limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_);
+  return deposited_;
+}
+
+std::vector<FluidAtParticle> AveragingInFluid::sample(const CellValues<BulkFluid>& owned,
+                                                      const CellValues<BulkFluidGradients>* gradients) {
+  CellValues<CellSample> offered{owned.cells, std::vector<CellSample>(owned.cells.size())};
+  unplaced_left_over_ = {};
+  for (std::size_t i = 0; i < owned.cells.size(); ++i) {
+    const BulkFluid& fluid = owned.values[i];
+    CellSample& sample = offered.values[i];
+    if (fluid.density > 0)
+      sample = {
+          1, fluid.velocity, fluid.pressure_gradient, fluid.density, fluid.viscosity, fluid.void_fraction,
+          {}};
+
+    const BulkParticles* particles = find(deposited_, owned.cells[i]);
+    const double drag_factor = particles ? particles->drag_factor : 0;
+    if (drag_factor > 0)
+      sample.left_over_rate = fluid.left_over / drag_factor;
+    else
+      unplaced_left_over_ += fluid.left_over;
+  }
+  const std::vector<CellSample> means = sample_records(std::move(offered));
+
+  std::vector<FluidAtParticle> at_particles(means.size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const CellSample& mean = means[i];
+    if (mean.fluid > 0)
+      at_particles[i] = {mean.velocity / mean.fluid,
+                         mean.pressure_gradient / mean.fluid,
+                         mean.density / mean.fluid,
+                         mean.viscosity / mean.fluid,
+                         {},
+                         mean.void_fraction / mean.fluid};
+    at_particles[i].left_over_rate = mean.left_over_rate;
+  }
+  if (!gradients) return at_particles;
+
+  assert(gradients->cells == owned.cells);
+  CellValues<GradientSample> steepness{owned.cells, std::vector<GradientSample>(owned.cells.size())};
+  for (std::size_t i = 0; i < owned.cells.size(); ++i)
+    if (owned.values[i].density > 0) steepness.values[i] = {1, gradients->values[i]};
+  const std::vector<GradientSample> slopes = sample_records(std::move(steepness));
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    if (!(slopes[i].fluid > 0)) continue;
+    const BulkFluidGradients& mean = slopes[i].gradients;
+    at_particles[i].gradients = {mean.stress_force / slopes[i].fluid, mean.acceleration / slopes[i].fluid,
+                                 mean.vorticity / slopes[i].fluid};
+  }
+  return at_particles;
+}
+
+}  // namespace demvof

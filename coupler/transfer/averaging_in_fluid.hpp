@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+#include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/averaging_parameters.hpp"
+#include "coupler/transfer/diffusion.hpp"
+#include "coupler/transfer/fluid_at_particle.hpp"
+#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/limit_solid.hpp"
+
+namespace demvof {
+
+/// Particles to the bulk grid and back in one of the fluids, with the same weights both ways: sampling is the
+/// transpose of depositing. Calls are collective.
+class AveragingInFluid {
+ public:
+  /// parameters: with_bandwidth().
+  AveragingInFluid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+                   const AveragingParameters& parameters);
+
+  /// share: of this fluid in the volume of those of this rank's cells that are not all its own, -. Particles
+  /// count in that share only.
+  void set_shares(CellValues<double> share);
+  /// Where the particles are from here on: weights before shares, and their cells, which must outlive this.
+  void weigh(const KernelWeights& weights, const TouchedCells& touched);
+  /// True for a particle that reaches a cell with this fluid.
+  bool reached_by(int particle) const { return weights_.first[particle + 1] > weights_.first[particle]; }
+
+  /// Sums the particles' contributions into the bulk cells they reach; what is above the largest solid
+  /// fraction of a cell moves to its neighbours. contributions: one per local particle. Returned: this rank's
+  /// cells.
+  const CellValues<BulkParticles>& deposit(const std::vector<BulkParticles>& contributions);
+  /// Any records in the same way; nothing moves out of full cells.
+  template <class T>
+  CellValues<T> deposit_records(const std::vector<T>& records) {
+    std::vector<T> touched(weights_.cells.size());
+    demvof::deposit(weights_, reinterpret_cast<const double*>(records.data()), row_width<T>(),
+                    reinterpret_cast<double*>(touched.data()));
+    CellValues<T> owned = touched_->sum_to_owners(touched);
+    return diffusion_ ? diffusion_->spread(std::move(owned)) : owned;
+  }
+
+  /// This fluid at each local particle. owned: this rank's cells of the last deposit. Cells without fluid do
+  /// not count in the mean; a particle that reaches no other gets density 0. gradients: of the same cells,
+  /// when a force needs them.
+  std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned,
+                                      const CellValues<BulkFluidGradients>* gradients = nullptr);
+  /// Records of this rank's cells at each local particle: their mean, cells without a record counting as T{}.
+  template <class T>
+  std::vector<T> sample_records(CellValues<T> owned) const {
+    if (diffusion_) owned = diffusion_->gather(std::move(owned));
+    const std::vector<T> cells = touched_->fetch_from_owners(owned, T{});
+    std::vector<T> means(weights_.particles());
+    demvof::sample(weights_, reinterpret_cast<const double*>(cells.data()), row_width<T>(),
+                   reinterpret_cast<double*>(means.data()));
+    return means;
+  }
+
+  const CellValues<BulkParticles>& deposited() const { return deposited_; }
+  CellValues<BulkParticles>& deposited() { return deposited_; }
+  /// What had to be moved out of full cells in the last deposit.
+  const SolidRelief& relief() const { return relief_; }
+  /// Left-over impulse that came for cells without drag in the last sample, this rank, N s: given to nobody.
+  const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
+
+ private:
+  MPI_Comm world_;
+  BulkGrid grid_;
+  BulkPartition partition_;
+  double maximum_solid_fraction_;
+  CellValues<double> share_;  // this rank's cells that are not all this fluid's
+  bool everywhere_ = true;    // on all ranks no such cells
+  std::optional<Diffusion> diffusion_;
+  KernelWeights weights_;
+  const TouchedCells* touched_ = nullptr;
+  CellValues<BulkParticles> deposited_;
+  SolidRelief relief_;
+  Vec3 unplaced_left_over_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <type_traits>
+
+#include "coupler/base/sphere.hpp"
+#include "coupler/base/vec3.hpp"
+#include "coupler/transfer/bulk_surface.hpp"
+
+// What a particle carries through a window, from rank to rank: what it feels and what it received. LIGGGHTS
+// keeps and moves the rows; all zero for a particle that came into being during the window: no fluid acts on
+// it yet.
+
+namespace demvof {
+
+/// Of one fluid, as if the particle lay wholly in it, but for what it received.
+struct CarriedFluid {
+  Vec3 velocity;             // u, m/s
+  double density = 0;        // rho, kg/m3; 0: this fluid is not here
+  double viscosity = 0;      // mu, Pa s
+  double void_fraction = 1;  // eps, -
+  Vec3 pressure_force;       // N
+  Vec3 left_over_force;      // N
+  // Received in this window:
+  Vec3 drag_impulse;           // lift and added mass included, N s
+  double drag_factor_sum = 0;  // sum of beta over the steps, with the wetted share of each, kg/s
+  double drag_exponent = 1;    // n at the start of this window (implicit_drag.hpp), -
+};
+
+/// Where the surface is, seen from the particle's centre.
+struct CarriedSurface {
+  double dry = 0;       // share of the volume in the gas, -
+  Vec3 normal;          // into the gas; zero: no surface is near
+  double distance = 0;  // of the surface along the normal, m
+  double velocity = 0;  // of the surface along the normal, m/s
+};
+
+/// What contacts did in this window.
+struct CarriedContacts {
+  double steps = 0;  // with a force other than gravity
+  Vec3 impulse;      // N s
+};
+
+struct CarriedRow {
+  CarriedContacts contacts;
+  CarriedSurface surface;
+  CarriedFluid fluid[2];  // liquid, gas
+
+  double share(int k) const { return k == 0 ? 1 - surface.dry : surface.dry; }
+  bool feels(int k) const { return fluid[k].density > 0 && share(k) > 0; }
+  bool waits() const { return fluid[0].density == 0 && fluid[1].density == 0; }
+};
+
+/// Of one fluid, when a force needs its derivatives.
+struct CarriedGradients {
+  Vec3 stress_force;   // N
+  Vec3 acceleration;   // Du/Dt, m/s2
+  Vec3 vorticity;      // 1/s
+  Vec3 other_impulse;  // of the drag impulse, what lift and added mass gave, N s
+};
+struct CarriedGradientsRow {
+  CarriedGradients fluid[2];
+};
+
+constexpr const char* rows_name = "demvof_fluid";
+constexpr const char* gradient_rows_name = "demvof_fluid_gradients";
+
+/// The doubles of local particle i by their names.
+template <class Carried = CarriedRow>
+Carried& carried_by(double* const* rows, int i) {
+  static_assert(std::is_standard_layout_v<Carried> && alignof(Carried) == alignof(double));
+  return *reinterpret_cast<Carried*>(rows[i]);
+}
+
+/// The surface at the start of a window; what is not told counts as not there.
+inline CarriedSurface carried_surface(const SeenSurface& seen, const Vec3& liquid_velocity) {
+  return {1 - seen.wetted, seen.normal, seen.distance, dot(seen.normal, liquid_velocity)};
+}
+
+/// Surface and particle move for a DEM step (s); returns what became wet of the particle, - (negative: dry).
+inline double move_surface(CarriedSurface& surface, const Vec3& particle_velocity, double radius,
+                           double step) {
+  if (surface.normal.x == 0 && surface.normal.y == 0 && surface.normal.z == 0) return 0;
+  surface.distance += step * (surface.velocity - dot(surface.normal, particle_velocity));
+  const double dry = 1 - share_below_plane(surface.distance / radius);
+  const double wetted = surface.dry - dry;
+  surface.dry = dry;
+  return wetted;
+}
+
+}  // namespace demvof

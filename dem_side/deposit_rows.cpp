@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a particle adds to the bulk grid at the end of a window, in liquid and gas by its shares in them.
+
+#include "coupler/base/sphere.hpp"
+#include "dem_side/forces.hpp"
+#include "dem_side/implicit_drag.hpp"
+
+namespace demvof {
+
+std::vector<BulkParticles> FluidForces::contributions(int k) const {
+  const ParticleArrays particles = dem_.particles();
+  std::vector<BulkParticles> contributions(particles.count);
+  double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradients = gradient_rows();
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedRow& row = carried_by(rows, i);
+    const CarriedFluid& fluid = row.fluid[k];
+    const double radius = particles.radius[i], mass = particles.mass[i];
+    const double beta = mean_drag_factor(fluid), tangent = mean_drag_tangent(fluid);
+    const double other = mean_drag_tangent(row.fluid[1 - k]);
+    const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? row.contacts.steps / steps_ : 1;
+    const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
+    const double response = drag_response(tangent, mass, window_, held, added, other);
+    BulkParticles& here = contributions[i];
+    here.solid_volume = row.share(k) * sphere_volume(radius);
+    if (dem_.moves(particles.mask[i])) {
+      const double inertia = mass + added;
+      const double theta = inertial_share(tangent + other, inertia, window_);
+      // Added mass: grad p and rho Du/Dt push alike.
+      const double push = (1 + parameters_.added_mass) * sphere_volume(radius) / inertia;
+      here.pressure_mobility = theta * here.solid_volume * push;
+      here.following_volume = (1 - theta) * here.solid_volume;
+    }
+    here.drag_impulse = fluid.drag_impulse;
+    here.drag_factor = beta;
+    here.drag_response = response;
+    here.drag_weighted_velocity = beta * vec3(particles.velocity[i]);
+    if (gradients && window_ > 0)
+      here.drag_weighted_velocity -=
+          carried_by<CarriedGradientsRow>(gradients, i).fluid[k].other_impulse / window_;
+    here.response_weighted_velocity = response * fluid.velocity;
+  }
+  return contributions;
+}
+
+std::vector<Support> FluidForces::support(int k) const {
+  const ParticleArrays particles = dem_.particles();
+  std::vector<Support> support(particles.count);
+  double* const* rows = dem_.particle_rows(rows_name);
+  double* const* gradients = gradient_rows();
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedRow& row = carried_by(rows, i);
+    const CarriedFluid& fluid = row.fluid[k];
+    const double share = row.share(k);
+    const bool moves = dem_.moves(particles.mask[i]);
+    Vec3 others = fluid.pressure_force;
+    if (gradients) others += carried_by<CarriedGradientsRow>(gradients, i).fluid[k].stress_force;
+    if (moves) others += parameters_.constant;
+    if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * dem_.gravity();
+    const double added = added_mass(row, 0, particles.radius[i]) + added_mass(row, 1, particles.radius[i]);
+    support[i] = {share * row.contacts.impulse, fluid.drag_impulse,
+                  window_ * (share * others + fluid.left_over_force),
+                  drag_response(mean_drag_tangent(fluid), particles.mass[i], window_, moves ? 0 : 1, added,
+                                mean_drag_tangent(row.fluid[1 - k]))};
+  }
+  return support;
+}
+
+}  // namespace demvof
