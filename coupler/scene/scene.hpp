@@ -29,7 +29,7 @@ struct Decision {
 struct Scene {
   bool particles = false;
   bool surface_tension = false;
-  bool two_fluids = true;  // liquid and gas are told apart where the surface cuts a bulk cell
+  bool two_fluids = false;  // liquid and gas are told apart where the surface cuts a bulk cell
   bool interface_advection = true;
   bool porosity = false;
   PhaseInterchange interchange = PhaseInterchange::none;  // how particles cross the interface
