@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "coupler/config/enum_names.hpp"
+#include "coupler/config/keys.hpp"
+#include "coupler/config/printable.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {
@@ -34,6 +36,7 @@ struct Checks {
   }
 
   void files() const;
+  void ranges() const;
   void bulk_grid() const;
   void times() const;
   void interchange() const;
@@ -43,17 +46,58 @@ struct Checks {
 void Checks::files() const {
   if (sound({"fluid.case"})) {
     const fs::path folder = beside_case_file(c, c.fluid.case_folder);
-    if (!fs::is_directory(folder))
+    std::error_code none;  // a name may be too long for the system to ask
+    if (!fs::is_directory(folder, none))
       add("fluid.case", fmt::format("{}: there is no folder {}", c.fluid.case_folder, folder.string()));
-    else if (!fs::is_regular_file(folder / "system" / "controlDict"))
+    else if (!fs::is_regular_file(folder / "system" / "controlDict", none))
       add("fluid.case", fmt::format("{} is no OpenFOAM case: there is no {}", c.fluid.case_folder,
                                     (folder / "system" / "controlDict").string()));
   }
   if (sound({"particles.script"})) {
     const fs::path script = beside_case_file(c, c.particles->script);
-    if (!fs::is_regular_file(script))
+    std::error_code none;
+    if (!fs::is_regular_file(script, none))
       add("particles.script", fmt::format("{}: there is no file {}", c.particles->script, script.string()));
   }
+}
+
+/// Numbers that no run can mean, and that would overflow on the way.
+void Checks::ranges() const {
+  struct Range {
+    const char* key;
+    double smallest, largest;  // of magnitudes that are not 0
+  };
+  static constexpr Range reasonable[] = {{"coupling.end_time", 1e-12, 1e9},
+                                         {"coupling.window", 1e-12, 1e9},
+                                         {"coupling.time_out", 1e-3, 1e9},
+                                         {"coupling.interchange_speed", 1e-12, 1e6},
+                                         {"coupling.averaging.width", 1e-12, 1e6},
+                                         {"coupling.averaging.bandwidth", 1e-12, 1e6},
+                                         {"coupling.averaging.maximum_solid_fraction", 1e-3, 1},
+                                         {"bulk_grid.lower", 0, 1e6},
+                                         {"bulk_grid.upper", 0, 1e6},
+                                         {"output.interval", 1e-12, 1e9},
+                                         {"output.history_interval", 1e-12, 1e9}};
+  for (const auto& [name, smallest, largest] : reasonable) {
+    if (!sound({name})) continue;
+    const Key& key = *find_key(name);
+    const Json given = key.get(c);
+    for (const Json& value : given.is_array() ? given : Json::array({given}))
+      if (const double size = std::abs(value.get<double>());
+          size != 0 && !(smallest <= size && size <= largest)) {
+        add(name, fmt::format("{} is beyond reason: magnitudes from {} to {} ({})", value.get<double>(),
+                              smallest, largest, key.rule.unit));
+        break;
+      }
+  }
+  constexpr double most_cells = 1e9;
+  if (!sound({"bulk_grid.cells"})) return;
+  const auto& n = c.bulk_grid->cells;
+  const double cells = static_cast<double>(n[0]) * n[1] * n[2];
+  if (cells > most_cells)
+    add("bulk_grid.cells",
+        fmt::format("{:g} cells in all; give at most {:g}, of 2 to 4 particle diameters each", cells,
+                    most_cells));
 }
 
 void Checks::bulk_grid() const {
@@ -73,7 +117,12 @@ void Checks::times() const {
     const double end_time = c.coupling.end_time, window = c.coupling.window;
     const double windows = end_time / window;
     constexpr double tolerance = 1e-9;  // relative: the round-off of decimal input
-    if (windows < 1 - tolerance)
+    constexpr double most_windows = 1e12;
+    if (windows > most_windows)
+      add("coupling.window",
+          fmt::format("{} s is less than end_time, {} s, over {:g}: so many windows have no end", window,
+                      end_time, most_windows));
+    else if (windows < 1 - tolerance)
       add("coupling.end_time", fmt::format("{} s is less than coupling.window, {} s", end_time, window));
     else if (std::abs(windows - std::round(windows)) > tolerance * windows)
       add("coupling.end_time",
@@ -127,14 +176,18 @@ void Checks::scene() const {
 std::string report(Mistakes mistakes) {
   std::stable_sort(mistakes.begin(), mistakes.end(),
                    [](const Mistake& a, const Mistake& b) { return a.source.line < b.source.line; });
+  constexpr std::size_t most_lines = 50;
+  const std::size_t left_out = mistakes.size() > most_lines ? mistakes.size() - most_lines : 0;
+  mistakes.resize(mistakes.size() - left_out);
   std::string text;
   for (const Mistake& m : mistakes) {
     if (!text.empty()) text += '\n';
     text += m.source.name;
     if (m.source.line > 0 && m.source.line != Source::override_line)
       text += fmt::format(":{}", m.source.line);
-    text += (m.key.empty() ? ": " : ": " + m.key + ": ") + m.text;
+    text += (m.key.empty() ? ": " : ": " + cut(printable(m.key), 200) + ": ") + cut(printable(m.text), 2000);
   }
+  if (left_out > 0) text += fmt::format("\n... and {} more mistakes", left_out);
   return text;
 }
 
@@ -142,6 +195,7 @@ void check_case(const CaseParameters& parameters, const std::map<std::string, So
                 Mistakes& mistakes) {
   const Checks checks{parameters, sources, mistakes};
   checks.files();
+  checks.ranges();
   checks.bulk_grid();
   checks.times();
   checks.interchange();

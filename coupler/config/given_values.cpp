@@ -2,10 +2,12 @@
 #include "coupler/config/given_values.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/config/keys.hpp"
@@ -58,29 +60,86 @@ std::string entry_example(const std::string& word, const ValueRule& rule) {
 }
 
 std::string read_text(const std::string& file) {
+  constexpr std::size_t most_bytes = 1000000;  // a thousand times what a case needs
   std::ifstream stream(file);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf()))
+  std::string text(most_bytes + 1, ' ');
+  if (!stream || (stream.read(text.data(), most_bytes + 1), stream.bad()))
     throw InputError(fmt::format("{}: the case file cannot be read", file));
-  return text.str();
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > most_bytes)
+    throw InputError(fmt::format("{}: a case file has at most {} bytes", file, most_bytes));
+  return text;
+}
+
+/// Where documents begin, and nothing of what is in them.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;  // of the first thing in each
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    marks.push_back(mark);
+    in_it_ = false;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { note(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { note(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
+    note(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void note(const YAML::Mark& mark) {
+    if (!in_it_) marks.back() = mark;
+    in_it_ = true;
+  }
+  bool in_it_ = false;
+};
+
+/// From 1; nothing when the text is one document. yaml-cpp makes documents for ever of a comma or a closing
+/// bracket between two of them: after the second one nobody asks it for more.
+std::optional<int> line_of_second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+  }
+  if (starts.marks.size() < 2) return std::nullopt;
+  return starts.marks[1].line + 1;
 }
 
 }  // namespace
 
 GivenValues::GivenValues(const std::string& file) : file_(file) {
-  std::vector<YAML::Node> documents;
+  YAML::Node document;
+  std::optional<int> second;
   try {
-    documents = YAML::LoadAll(read_text(file));
+    const std::string text = read_text(file);
+    second = line_of_second_document(text);
+    document = YAML::Load(text);
   } catch (const YAML::ParserException& error) {
     throw InputError(fmt::format("{}:{}: not valid YAML: {}", file, error.mark.line + 1, error.msg));
   }
-  const bool empty = documents.empty() || documents[0].IsNull();
-  if (empty || !documents[0].IsMap())
+  const bool empty = document.IsNull();
+  if (second && (empty || !document.IsMap()))
+    throw InputError(
+        fmt::format("{}:{}: there is more behind what is complete by itself: look for a comma or a "
+                    "bracket too much, or a second YAML document",
+                    file, *second));
+  if (empty || !document.IsMap())
     throw InputError(fmt::format("{}: the case file {}; give a map with {}", file,
                                  empty ? "is empty" : "is no map", fmt::join(names_inside(""), ", ")));
-  if (documents.size() > 1)
-    add_mistake(source_of(documents[1]), "", "a second YAML document; a case file holds one");
-  walk_section(documents[0], "");
+  if (second) add_mistake(Source{file_, *second}, "", "a second YAML document; a case file holds one");
+  walk_section(document, "");
 }
 
 void GivenValues::override_with(const std::string& assignment) {

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
-
-#include <cstdint>
-
+#include "coupler/base/checksum.hpp"
 #include "coupler/config/keys.hpp"
 #include "coupler/config/read_case.hpp"
 
@@ -38,13 +35,6 @@ Json configuration(const CaseParameters& parameters, Wanted wanted) {
   return root;
 }
 
-/// 64-bit FNV-1a (Fowler, Noll, Vo).
-std::uint64_t fnv1a(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const unsigned char byte : text) hash = (hash ^ byte) * 1099511628211ULL;
-  return hash;
-}
-
 }  // namespace
 
 std::string resolved_configuration(const CaseParameters& parameters) {
@@ -53,7 +43,7 @@ std::string resolved_configuration(const CaseParameters& parameters) {
 
 std::string configuration_hash(const CaseParameters& parameters) {
   const auto wanted = [](const Key& key) { return key.changes_results; };
-  return fmt::format("{:016x}", fnv1a(configuration(parameters, wanted).dump()));
+  return Checksum().add(configuration(parameters, wanted).dump()).text();
 }
 
 }  // namespace demvof

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "coupler/config/nearest.hpp"
+#include "coupler/config/printable.hpp"
 
 namespace demvof {
 namespace {
@@ -140,6 +141,8 @@ std::optional<std::string> read_value(const YAML::Node& node, const ValueRule& r
 
 std::string given_text(const YAML::Node& node) {
   if (node.IsNull() || !node.IsDefined()) return "nothing";
+  constexpr std::size_t longest = 60;
+  if (node.IsScalar() && node.Scalar().size() > longest) return cut(node.Scalar(), longest);
   YAML::Emitter out;
   if (node.IsScalar() && node.Tag() == "!") out << YAML::DoubleQuoted;
   out.SetMapFormat(YAML::Flow);
@@ -147,8 +150,7 @@ std::string given_text(const YAML::Node& node) {
   out << node;
   std::string text = out.c_str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  constexpr std::size_t longest = 60;
-  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+  return cut(text, longest);
 }
 
 }  // namespace demvof

@@ -99,4 +99,24 @@ TEST(BadCaseFiles, AFileThatIsNotThereIsNamed) {
             std::vector<std::string>{folder.string() + ": the case file cannot be read"});
 }
 
+TEST(BadCaseFiles, ManyMistakesAreCountedNotListed) {
+  const fs::path file = fs::path(testing::TempDir()) / "many_mistakes.yaml";
+  std::ofstream many(file);
+  many << "fluid: {case: fluid}\ncoupling: {end_time: 1, window: 0.1}\n";
+  for (int i = 0; i < 20000; ++i) many << "key_" << i << ": 1\n";
+  many.close();
+  const std::vector<std::string> lines = message(file, {});
+  ASSERT_EQ(lines.size(), 51u);
+  EXPECT_EQ(lines.back(), "... and 19951 more mistakes");
+  fs::remove(file);
+}
+
+TEST(BadCaseFiles, AHugeFileIsNoCase) {
+  const fs::path file = fs::path(testing::TempDir()) / "huge.yaml";
+  std::ofstream(file) << std::string(1000001, 'a');
+  EXPECT_EQ(message(file, {}),
+            std::vector<std::string>{file.string() + ": a case file has at most 1000000 bytes"});
+  fs::remove(file);
+}
+
 }  // namespace
