@@ -8,7 +8,8 @@
 
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
-#include "coupler/output/restart_point.hpp"
+#include "coupler/output/piped_file.hpp"
+#include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {
@@ -26,16 +27,36 @@ fs::path restart_file(const fs::path& run, long window) {
   return restart_folder(run, window) / "particles";
 }
 
-void write_particle_restart(const fs::path& run, long window, Dem& dem, int steps) {
+StateFiles write_particle_restart(const fs::path& run, long window, Dem& dem, int steps) {
   const long count = dem.census().count;
   int rank;
   check_mpi(MPI_Comm_rank(dem.world(), &rank), "MPI_Comm_rank");
-  if (rank == 0) {
-    fs::create_directories(restart_folder(run, window));
-    const nlohmann::json facts = {{"step", dem.step()}, {"particles", count}, {"steps_per_window", steps}};
-    write_file_atomically(facts_file(run, window), facts.dump() + "\n");
+  StateFiles files;
+  if (rank != 0) {
+    dem.write_restart("written by rank 0");
+    return files;
   }
-  dem.write_restart(restart_file(run, window));
+  fs::create_directories(restart_folder(run, window));
+  const nlohmann::json facts = {{"step", dem.step()}, {"particles", count}, {"steps_per_window", steps}};
+  write_file_atomically(facts_file(run, window), facts.dump() + "\n");
+  // LIGGGHTS does not look whether its writes succeed.
+  PipedFile file(restart_file(run, window));
+  dem.write_restart(file.name());
+  file.finish();
+  add_state_file(files, run, facts_file(run, window));
+  add_state_file(files, run, restart_file(run, window));
+  return files;
+}
+
+RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
+                        const OwnWorld& world) {
+  const RestartPoint point =
+      read_restart_point(options.out, options.from, state_frame(parameters, parameters.fluid.ranks),
+                         parameters.coupling.end_time);
+  const std::string own = fmt::format("restart/{}/particles", point.window);
+  if (world.rank() == 0)
+    require_whole(options.out, point, [&](const std::string& name) { return name.rfind(own, 0) == 0; });
+  return point;
 }
 
 int steps_of_continued(const fs::path& run, long window, const Dem& dem, const std::string& script) {

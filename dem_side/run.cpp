@@ -15,6 +15,7 @@
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/restart_point.hpp"
+#include "coupler/output/run_lock.hpp"
 #include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
@@ -77,9 +78,11 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const fs::path script =
       fs::absolute(beside_case_file(parameters, particle_parameters(parameters).script)).lexically_normal();
   fs::create_directories(options.out);
+  std::optional<RunLock> lock;
+  if (world.rank() == 0) lock.emplace(options.out, RunLock::Part::particles);
   std::optional<RestartPoint> start;
   if (options.continues) {
-    start = read_restart_point(options.out, parameters);
+    start = open_state(options, parameters, world);
     if (world.rank() == 0) keep_earlier(options.out, "particles.log");
   }
   Survivor survivor(options, parameters, world);
@@ -108,7 +111,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const auto weigh = [&] { averaging.weigh(positions(dem.particles()), radii(dem.particles())); };
   weigh();
   averaging.in(0).deposit(forces.contributions());
-  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity()),
+  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity(), options.out,
+                                 start ? start->checksum : "no"),
                  facts(dem, forces, averaging, world));
   const WindowPlan& plan = link.receive_plan();
   if (!plan.interface) replacement.reset();
@@ -189,11 +193,10 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     if (!link.writes()) continue;
     run_stage().set("output", time);
     output.write(time, coupling.window, forces, averaging, fluid.means);
-    write_particle_restart(options.out, link.number(), dem, steps);
-    link.both_have_written();
+    link.both_have_written(to_text(write_particle_restart(options.out, link.number(), dem, steps)));
   }
   link.close();
-  return link.goes_on() ? exit_done : exit_failed;
+  return link.done() ? exit_done : exit_failed;
 }
 
 }  // namespace demvof

@@ -18,14 +18,6 @@ struct Survivor::State {
   RunResults results;
   fs::path file;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  fs::file_time_type start_of_files = fs::file_time_type::clock::now();
-
-  // A file younger than this run is the partner's own account.
-  bool partner_has_written() const {
-    std::error_code none;
-    const auto written = fs::last_write_time(file, none);
-    return !none && written >= start_of_files;
-  }
 };
 
 Survivor::Survivor(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world)
@@ -39,9 +31,11 @@ Survivor::Survivor(const ProgramOptions& options, const CaseParameters& paramete
   results.ranks = {world.partner_size(), world.size()};
   if (world.rank() != 0 || options.check) return;
   set_last_words([state = state_](const Failure& failure) {
-    if (failure.exit_code != exit_partner_lost || state->partner_has_written()) return;
+    // A file that is there is the partner's own account, or that of the run which this one was to go on with.
+    if (failure.exit_code != exit_partner_lost || fs::exists(state->file)) return;
     const std::lock_guard<std::mutex> lock(state->mutex);
-    state->results.failure = RunFailure{"particles", failure.stage, failure.time, failure.message};
+    state->results.failure =
+        RunFailure{side_name(failure.side), failure.stage, failure.time, failure.message};
     state->results.wall_seconds.total =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - state->start).count();
     write_results(state->file, state->results);

@@ -3,10 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <vector>
 
+#include "IFstream.H"
 #include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/config/read_case.hpp"
+#include "coupler/link/run_stage.hpp"
+#include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {
@@ -14,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr int states_kept = 2;  // one to go on from, and one before it should that be damaged
 
 fs::path file_of_rank(const fs::path& run, long window) {
   return restart_folder(run, window) / fmt::format("fluid.{}", Foam::Pstream::myProcNo());
@@ -78,7 +87,92 @@ void go_on(Flow& flow, const json& state) {
       before.at(static_cast<std::size_t>(3 * cell + axis));
 }
 
-}  // namespace
+/// The last bytes of a file of OpenFOAM, compressed or not.
+std::string end_of_file(const fs::path& file) {
+  constexpr std::streamoff wanted = 100;
+  std::string end;
+  if (fs::exists(file)) {
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = stream.tellg();
+    stream.seekg(std::max<std::streamoff>(0, size - wanted));
+    end.assign(std::istreambuf_iterator<char>(stream), {});
+  } else if (fs::exists(file.string() + ".gz")) {
+    Foam::IFstream stream(file.string());
+    std::vector<char> block(65536);
+    while (stream.stdStream().read(block.data(), 65536), stream.stdStream().gcount() > 0)
+      end = (end + std::string(block.data(), stream.stdStream().gcount()));
+    end.erase(0, end.size() > wanted ? end.size() - wanted : 0);
+  }
+  return end;
+}
+
+/// OpenFOAM ends each file with a row of stars.
+void require_file(const fs::path& file) {
+  const std::string end = end_of_file(file);
+  const std::string stars = "* //\n";
+  if (end.size() < stars.size() || end.compare(end.size() - stars.size(), stars.size(), stars) != 0)
+    throw RunError(fmt::format("{} was not written to its end: is the disk full?", file.string()));
+}
+
+/// Everything that belongs into the present time folder.
+void require_files(const Foam::objectRegistry& objects, const std::string& time_name) {
+  forAllConstIters(objects, entry) {
+    const Foam::regIOobject& object = **entry;
+    if (const auto* inner = dynamic_cast<const Foam::objectRegistry*>(&object)) {
+      if (inner != &objects) require_files(*inner, time_name);
+    } else if (object.writeOpt() == Foam::IOobject::AUTO_WRITE && object.instance() == time_name) {
+      require_file(static_cast<const std::string&>(object.objectPath()));
+    }
+  }
+}
+
+fs::path time_folder(const Flow& flow) {
+  return static_cast<const std::string&>(flow.time.timePath());
+}
+
+/// The text of each rank, on rank 0.
+std::vector<std::string> gather(const std::string& mine, const OwnWorld& world) {
+  const int length = static_cast<int>(mine.size()), ranks = world.rank() == 0 ? world.size() : 0;
+  std::vector<int> lengths(static_cast<std::size_t>(ranks)), starts(lengths.size());
+  check_mpi(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, world.comm()), "MPI_Gather");
+  int total = 0;
+  for (std::size_t rank = 0; rank < lengths.size(); ++rank) {
+    starts[rank] = total;
+    total += lengths[rank];
+  }
+  std::string all(static_cast<std::size_t>(total), ' ');
+  check_mpi(MPI_Gatherv(mine.data(), length, MPI_CHAR, all.data(), lengths.data(), starts.data(), MPI_CHAR, 0,
+                        world.comm()),
+            "MPI_Gatherv");
+  std::vector<std::string> texts;
+  for (std::size_t rank = 0; rank < lengths.size(); ++rank)
+    texts.push_back(
+        all.substr(static_cast<std::size_t>(starts[rank]), static_cast<std::size_t>(lengths[rank])));
+  return texts;
+}
+
+/// Does the work on every rank; when it throws on one, throws on all. Rank 0 knows the reason.
+void on_every_rank(const OwnWorld& world, const std::function<void()>& work) {
+  std::string error;
+  try {
+    work();
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  int failed = !error.empty();
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, world.comm()), "MPI_Allreduce");
+  if (!failed) return;
+  for (const std::string& said : gather(error, world))
+    if (error.empty()) error = said;
+  throw RunError(error.empty() ? "another rank could not write its part of the state" : error);
+}
+
+StateFiles all_files(const std::string& mine, const std::string& of_particles, const OwnWorld& world) {
+  StateFiles files = state_files(of_particles);
+  for (const std::string& text : gather(mine, world))
+    for (const auto& [name, facts] : state_files(text)) files[name] = facts;
+  return files;
+}
 
 void write_fluid_restart(const fs::path& run, long window, const Flow& flow, const ForceParameters& forces,
                          const Bridge& bridge, const RunRecord& record) {
@@ -94,6 +188,50 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
   write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
+}
+
+}  // namespace
+
+void write_fields(Flow& flow) {
+  const bool opened = flow.time.writeNow();
+  require_file(time_folder(flow) / "uniform" / "time");
+  require_files(flow.time, flow.time.timeName());  // names the file
+  if (!opened)
+    throw RunError(
+        fmt::format("OpenFOAM could not write all of {}: is the disk full?", time_folder(flow).string()));
+}
+
+void write_state(const fs::path& run, const CaseParameters& parameters, long window, Flow& flow,
+                 const Bridge& bridge, const RunRecord& record, FluidEnd& link, const OwnWorld& world) {
+  run_stage().set("field output", flow.time.value());
+  StateFiles files;
+  on_every_rank(world, [&] {
+    write_fields(flow);
+    write_fluid_restart(run, window, flow, parameters.forces, bridge, record);
+    add_state_folder(files, run, time_folder(flow));
+    add_state_file(files, run, file_of_rank(run, window));
+    if (world.rank() == 0) add_state_file(files, run, run / "history.csv", true);
+  });
+  const std::string of_particles = link.both_have_written();
+  const StateFiles all = all_files(to_text(files), of_particles, world);
+  if (world.rank() == 0)
+    write_restart_point(run,
+                        {window, flow.time.value(), flow.time.timeName(),
+                         state_frame(parameters, world.size()), resolved_configuration(parameters), all},
+                        states_kept);
+}
+
+RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
+                        const OwnWorld& world) {
+  const RestartPoint point = read_restart_point(
+      options.out, options.from, state_frame(parameters, world.size()), parameters.coupling.end_time);
+  const std::string own = fmt::format("restart/{}/fluid.{}", point.window, world.rank());
+  const std::string fields =
+      world.size() > 1 ? fmt::format("fluid/processor{}/", world.rank()) : std::string("fluid/");
+  require_whole(options.out, point, [&](const std::string& name) {
+    return name == own || name.rfind(fields, 0) == 0 || (world.rank() == 0 && name == "history.csv");
+  });
+  return point;
 }
 
 void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge, RunRecord& record,

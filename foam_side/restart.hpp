@@ -3,18 +3,27 @@
 
 #include <filesystem>
 
+#include "coupler/config/program_options.hpp"
+#include "coupler/link/fluid_end.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/run_record.hpp"
 
 namespace demvof {
 
-// What the time folder of the fluid case does not hold: one file per rank in restart_folder().
+/// The time folder of the fluid case, of this rank. Throws RunError when a field that belongs there is not,
+/// or is cut: OpenFOAM itself looks only whether it could open the files. Collective.
+void write_fields(Flow& flow);
 
-/// Writes it. Call at the end of a window, on every rank, when the time folder has been written.
-/// Throws std::runtime_error when a file cannot be written.
-void write_fluid_restart(const std::filesystem::path& run, long window, const Flow& flow,
-                         const ForceParameters& forces, const Bridge& bridge, const RunRecord& record);
+/// The state at the end of a window, from which the run can be continued: the fields; what their folder does
+/// not hold, one file per rank in restart_folder(); and when dem_side has written its part, too, that this is
+/// the latest state. Collective. Throws RunError on all ranks when a file cannot be written on any.
+void write_state(const std::filesystem::path& run, const CaseParameters& parameters, long window, Flow& flow,
+                 const Bridge& bridge, const RunRecord& record, FluidEnd& link, const OwnWorld& world);
+
+/// Where the run goes on, its files of this rank as they were written. Throws InputError otherwise.
+RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
+                        const OwnWorld& world);
 
 /// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
 /// Throws InputError when a file is not there or not what was written.

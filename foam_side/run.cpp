@@ -16,6 +16,7 @@
 #include "coupler/link/signals.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/restart_point.hpp"
+#include "coupler/output/run_lock.hpp"
 #include "coupler/scene/plan_windows.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
 #include "foam_side/bridge.hpp"
@@ -68,19 +69,6 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   return true;
 }
 
-/// The fields, and the state that the run can be continued from once the particles have written theirs.
-void write_state(const fs::path& run, const CaseParameters& parameters, Flow& flow, const Bridge& bridge,
-                 const RunRecord& record, FluidEnd& link, const OwnWorld& world) {
-  const long window = link.number();
-  run_stage().set("field output", flow.time.value());
-  flow.time.writeNow();
-  write_fluid_restart(run, window, flow, parameters.forces, bridge, record);
-  link.both_have_written();
-  if (world.rank() == 0)
-    write_restart_point(run, {window, flow.time.value(), flow.time.timeName(), parameters.coupling.window,
-                              parameters.bulk_grid->cells, world.size()});
-}
-
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
                    const RestartPoint* start, const BulkGrid& grid, FluidEnd& link, const OwnWorld& world,
                    RunRecord& record) {
@@ -96,12 +84,13 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
+    if (world.rank() == 0) go_back_to(options.out, *start);
   } else {
     if (flow.porosity) set_initial_porosity(flow, to_fine.void_fraction());
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
     if (pressure_says_nothing(flow)) balance_pressure(flow);
     record.start(flow, &first.report);
-    flow.time.writeNow();
+    write_fields(flow);
   }
   flow.time.setEndTime(end_time + link.plan().window);  // the windows end the run, not controlDict
   flow.time.write_when_told();
@@ -163,9 +152,9 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
     done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
     record.window(flow, done, end_time);
-    if (link.writes()) write_state(options.out, parameters, flow, bridge, record, link, world);
+    if (link.writes()) write_state(options.out, parameters, link.number(), flow, bridge, record, link, world);
   }
-  return link.goes_on() ? RunStatus::completed : RunStatus::interrupted;
+  return link.done() ? RunStatus::completed : RunStatus::interrupted;
 }
 
 /// Plain VOF: steps and output times as in controlDict, like interFoam, to the case file's end time.
@@ -185,7 +174,7 @@ RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& rec
     record.window(flow, done, flow.time.endTime().value());
     go_on = !Foam::returnReduce(stop_requested(), Foam::orOp<bool>());
   }
-  flow.time.writeNow();
+  write_fields(flow);
   return RunStatus::interrupted;
 }
 
@@ -235,17 +224,22 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
+  std::optional<RunLock> lock;
+  if (world.rank() == 0) lock.emplace(options.out, RunLock::Part::fluid);
   std::optional<RestartPoint> start;
   if (options.continues) {
     if (!paired)
       throw InputError("--continue: only runs with particles; foam_side alone starts where controlDict says");
-    start = read_restart_point(options.out, parameters);
+    start = open_state(options, parameters, world);
     if (world.rank() == 0) keep_earlier(options.out, "fluid.log");
   }
   send_output_to(options.out / "fluid.log", world.rank());
   const std::optional<RefinementParameters>& refinement = parameters.fluid.refinement;
   if (refinement && world.rank() == 0) write_mesh_dictionary(options.out / "fluid", *refinement);
+  if (!paired && world.partner_size() > 0)
+    throw InputError(parameters.file + ": the run is made without particles, but dem_side was started, too");
   const Foam::argList& args = *open_case(options.out / "fluid", world);
+  install_signal_handlers();  // OpenFOAM has set its own
   SceneFacts facts = fluid_facts(args);
 
   std::optional<FluidEnd> link;
@@ -257,7 +251,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     grid.emplace(box.lower, box.upper, box.cells);
     link.emplace(world, grid->cell_count(), parameters.coupling.time_out);
     particles = json::parse(
-        link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args)),
+        link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args),
+                                        options.out, start ? start->checksum : "no"),
                         facts_as_json(facts).dump()));
     add_particle_facts(facts, particles);
     grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
@@ -284,10 +279,10 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   }
 
   RunRecord record(options, parameters, scene, particles, world.rank(), world.size());
-  const RunStatus status =
+  RunStatus status =
       link ? run_pair(*flow, options, parameters, start ? &*start : nullptr, *grid, *link, world, record)
            : run_alone(*flow, parameters, record);
-  record.finish(*flow, status);
+  status = record.finish(*flow, status);
   if (link) link->close();
   return status == RunStatus::completed ? exit_done : exit_failed;
 }

@@ -11,6 +11,7 @@
 #include "coupler/config/read_case.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/restart_point.hpp"
+#include "coupler/output/verdict.hpp"
 #include "foam_side/fine_mesh.hpp"
 
 namespace demvof {
@@ -53,6 +54,7 @@ struct RunRecord::Shared {
   std::mutex mutex;
   RunResults results;
   std::filesystem::path file;
+  bool begun = false;  // what is there is of this run; before, of the one that it was to go on with
   WallClock::time_point start = WallClock::now();
 
   void write() {
@@ -81,11 +83,16 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
     const BulkGridParameters& grid = *parameters.bulk_grid;
     results.cells.bulk = static_cast<long>(BulkGrid(grid.lower, grid.upper, grid.cells).cell_count());
   }
+  shared_->begun = !options.continues;
   if (!writes_) return;
+  std::error_code ignored;
+  if (shared_->begun) std::filesystem::remove(shared_->file, ignored);  // of a run before, started by hand
   set_last_words([shared = shared_](const Failure& failure) {
     const std::lock_guard<std::mutex> lock(shared->mutex);
+    if (!shared->begun) return;
     shared->results.status = RunStatus::failed;
-    shared->results.failure = RunFailure{"fluid", failure.stage, failure.time, failure.message};
+    shared->results.failure =
+        RunFailure{side_name(failure.side), failure.stage, failure.time, failure.message};
     shared->write();
   });
 }
@@ -122,6 +129,7 @@ void RunRecord::go_on(const Flow& flow, const ParticleReport& particles, long wi
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   shared_->results.continued_from = flow.time.value();
   if (writes_) keep_earlier(out_, "results.json");
+  shared_->begun = true;
   open_history(flow, flow.time.value());
 }
 
@@ -242,6 +250,8 @@ Quantities RunRecord::all_quantities(const Flow& flow, const ParticleReport* par
 
 void RunRecord::write_row(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = all_quantities(flow, particles);
+  const std::string nonsense = find_nonsense({quantities.begin(), quantities.end()});
+  if (!nonsense.empty()) throw RunError(nonsense);
   last_row_ = flow.time.value();
   if (!writes_) return;
   std::vector<double> row;
@@ -303,13 +313,20 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   return lines;
 }
 
-void RunRecord::finish(const Flow& flow, RunStatus status) {
+RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   if (flow.time.value() > last_row_) write_row(flow, last_particles_ ? &*last_particles_ : nullptr);
-  if (!writes_) return;
+  if (!writes_) return status;
   const std::lock_guard<std::mutex> lock(shared_->mutex);
-  shared_->results.status = status;
-  shared_->results.warnings = warnings(flow);
+  RunResults& results = shared_->results;
+  const Verdict verdict = judge(results, flow.clock.largest_courant);
+  results.warnings = warnings(flow);
+  results.warnings.insert(results.warnings.begin(), verdict.warnings.begin(), verdict.warnings.end());
+  results.status = verdict.failure ? RunStatus::failed : status;
+  if (verdict.failure)
+    results.failure = RunFailure{"fluid", "judging the results", flow.time.value(), *verdict.failure};
   shared_->write();
+  shared_->begun = false;  // nothing that comes now changes what was computed
+  return results.status;
 }
 
 }  // namespace demvof

@@ -63,8 +63,9 @@ class RunRecord {
   };
   void window(const Flow& flow, const Window& window, double end_time);
 
-  /// Writes results.json. Failures are written by the last words (failure.hpp) instead.
-  void finish(const Flow& flow, RunStatus status);
+  /// Writes results.json, with the verdict on what was computed; returns the status there, on rank 0.
+  /// Failures on the way are written by the last words (failure.hpp) instead.
+  RunStatus finish(const Flow& flow, RunStatus status);
 
  private:
   struct Shared;  // results as the last words need them, whichever thread speaks them

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "coupler/cli/commands.hpp"
+#include "coupler/cli/commands_in_case.hpp"
 #include "coupler/cli/launch.hpp"
 #include "coupler/cli/prepare.hpp"
 #include "coupler/config/read_case.hpp"
@@ -39,6 +40,7 @@ class TemporaryFolder {
 
 int check_command(const CaseOptions& options) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  if (options.no_commands) require_no_commands(parameters);
   fmt::print("{}: every key is in order (configuration {}).\n", options.case_file,
              configuration_hash(parameters));
 

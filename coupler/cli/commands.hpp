@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,13 @@ struct CaseOptions {
   std::vector<std::string> overrides;  // --set
   std::string out;                     // --out; empty: run, beside the case file
   bool force = false;
+  bool no_commands = false;  // refuse a case that executes anything
 };
 
 struct RunOptions {
   std::string fluid_ranks, particle_ranks;  // empty: as the case file says
   bool continues = false;                   // an earlier run in the folder, from its last state
+  std::optional<long> from;                 // ... or from the state after so many windows
   bool print_command = false, quiet = false;
 };
 

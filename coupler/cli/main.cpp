@@ -85,6 +85,8 @@ class CommandLine {
                      "Set a key of the case file, e.g. coupling.window=1e-4; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    command->add_flag("--no-commands", case_.no_commands,
+                      "Refuse a case that executes commands or code: for cases of strangers");
   }
   void add_out(CLI::App* command) {
     command
@@ -115,6 +117,9 @@ class CommandLine {
         ->type_name("N");
     command->add_flag("--continue", run_.continues,
                       "Go on with the run in DIR, from the last state that it has left there");
+    command
+        ->add_option("--from", run_.from, "With --continue: from the state that it has left after N windows")
+        ->type_name("N");
     command->add_flag("--print-command", run_.print_command, "Print how the programs are started, and stop");
     command->add_flag("--quiet", run_.quiet, "Print errors only");
   }

@@ -63,6 +63,9 @@ const char* const check_manual = R"(DESCRIPTION
     run would have switched on, what it leaves out and why, and the numbers it found: time steps per
     window, cells, particles. The case's folder is left as it is.
 
+    It executes what the case says (fluid.prepare, shell commands of the script ...): see --no-commands, and
+    docs/security.md for cases of strangers.
+
 EXIT STATUS
     0 the case is ready to run, 2 the input is wrong, 3 a program failed, 4 one side lost the other
 
@@ -98,7 +101,8 @@ const char* const run_manual = R"(DESCRIPTION
     ends it at once.
 
     A run that stopped, or has reached its end, can be continued: with --continue it goes on from the last
-    state in DIR/restart, which is written with each field output (output.interval) and at the end. Settings
+    state in DIR/restart, which is written with each field output (output.interval) and at the end; with
+    --from N from the one after N windows, if it is still there. A state with a damaged file is refused. Settings
     may change, coupling.end_time for one; the fluid case, its ranks, bulk_grid and coupling.window may not.
     The particle script has to allow it (docs/howto_your_own_case.md).
 

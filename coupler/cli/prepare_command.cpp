@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "coupler/cli/commands.hpp"
+#include "coupler/cli/commands_in_case.hpp"
 #include "coupler/cli/prepare.hpp"
 #include "coupler/config/read_case.hpp"
 
@@ -9,6 +10,7 @@ namespace demvof {
 
 int prepare_command(const CaseOptions& options) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  if (options.no_commands) require_no_commands(parameters);
   const RunFolder folder(parameters, options.out);
   if (folder.ready() && !options.force) {
     fmt::print("{} is ready.\n", folder.fluid().string());

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "coupler/cli/commands.hpp"
+#include "coupler/cli/commands_in_case.hpp"
+#include "coupler/cli/last_results.hpp"
 #include "coupler/cli/launch.hpp"
 #include "coupler/cli/prepare.hpp"
 #include "coupler/cli/progress_display.hpp"
@@ -11,10 +13,11 @@
 namespace demvof {
 namespace {
 
-std::vector<std::string> program_arguments(const CaseOptions& options, bool continues,
+std::vector<std::string> program_arguments(const CaseOptions& options, const RunOptions& run,
                                            const RunFolder& folder) {
   std::vector<std::string> arguments = {"--out", folder.path().string()};
-  if (continues) arguments.push_back("--continue");
+  if (run.continues) arguments.push_back("--continue");
+  if (run.from) arguments.insert(arguments.end(), {"--from", std::to_string(*run.from)});
   for (const std::string& assignment : options.overrides)
     arguments.insert(arguments.end(), {"--set", assignment});
   return arguments;
@@ -41,23 +44,29 @@ void print_end(int code, const nlohmann::ordered_json& results, const RunFolder&
 int run_command(CaseOptions options, const RunOptions& run) {
   if (!run.fluid_ranks.empty()) options.overrides.push_back("fluid.ranks=" + run.fluid_ranks);
   if (!run.particle_ranks.empty()) options.overrides.push_back("particles.ranks=" + run.particle_ranks);
+  if (run.from && !run.continues)
+    throw InputError("demvof run: --from says where to go on; give --continue with it");
   if (run.continues && options.force)
     throw InputError("demvof run: --continue keeps what is in the folder, --force replaces it; give one");
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
+  if (options.no_commands) require_no_commands(parameters);
   const RunFolder folder(parameters, options.out);
-  const LaunchCommand command = launch_command(parameters, program_arguments(options, run.continues, folder));
+  const LaunchCommand command = launch_command(parameters, program_arguments(options, run, folder));
   if (run.print_command) {
     fmt::print("{}\n", shell_line(command));
     return 0;
   }
 
-  if (run.continues)
-    folder.require_continuable();
-  else if (!folder.ready())
+  if (run.continues) {
+    for (const std::string& change : folder.require_continuable(run.from))
+      if (!run.quiet) fmt::print("not as in the run that goes on: {}\n", change);
+  } else if (!folder.ready())
     prepare_case(parameters, folder, options.force, [&](const std::string& what) {
       if (!run.quiet) fmt::print("{}\n", what);
     });
 
+  folder.hold();
+  remove_notes(folder.path());
   ProgressDisplay display(folder.path() / "progress.json", suitable_display(run.quiet));
   Watch watch;
   bool said_something = false;
@@ -69,6 +78,9 @@ int run_command(CaseOptions options, const RunOptions& run) {
   const int launched = launch(command, watch);
   display.finish();
 
+  folder.wait_for_programs(10);  // mpirun may have been killed before them
+  if (launched == 3 || launched == 4) write_last_results(folder.path(), parameters, command.words, launched);
+  remove_notes(folder.path());
   const nlohmann::ordered_json results = read_results(folder.path());
   const int code = confirmed(launched, results);
   if (run.continues && code == 2) return code;  // the results there are those of the run as it was

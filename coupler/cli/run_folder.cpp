@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
+#include "coupler/cli/last_results.hpp"
+#include "coupler/config/printable.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/output/restart_point.hpp"
+#include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {
@@ -44,6 +49,13 @@ bool inside(const fs::path& inner, const fs::path& outer) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+/// Holds nothing but what a run leaves that did not even start.
+bool is_empty(const fs::path& folder) {
+  const fs::directory_iterator all(folder);
+  return std::all_of(begin(all), end(all),
+                     [](const fs::directory_entry& entry) { return entry.path().filename() == ".lock"; });
+}
+
 }  // namespace
 
 RunFolder::RunFolder(const CaseParameters& parameters, const fs::path& path)
@@ -70,13 +82,22 @@ bool RunFolder::ready() const {
              fs::last_write_time(mark);
 }
 
-void RunFolder::require_continuable() const {
-  read_restart_point(path_, parameters_);
+std::vector<std::string> RunFolder::require_continuable(std::optional<long> from) const {
+  if (fs::exists(path_ / "restart")) hold();
+  const RestartPoint point = read_restart_point(
+      path_, from, state_frame(parameters_, parameters_.fluid.ranks), parameters_.coupling.end_time);
   if (read_text(path_ / marker) != preparation())
     throw InputError(
         fmt::format("--continue: the run in {} is of another fluid case (fluid.case, fluid.ranks or "
                     "fluid.prepare differ); start a new run with another --out",
                     path_.string()));
+  require_whole(path_, point, [](const std::string&) { return true; });
+  std::vector<std::string> changes = changed_keys(point.configuration, resolved_configuration(parameters_));
+  changes.erase(
+      std::remove_if(changes.begin(), changes.end(),
+                     [](const std::string& line) { return line.rfind("coupling.end_time:", 0) == 0; }),
+      changes.end());
+  return changes;
 }
 
 void RunFolder::clear(bool force) const {
@@ -90,7 +111,7 @@ void RunFolder::clear(bool force) const {
   if (fs::exists(path_) && !fs::is_directory(path_))
     throw InputError(
         fmt::format("--out {}: there is a file of that name; choose another --out", path_.string()));
-  if (fs::exists(path_) && !fs::is_empty(path_)) {
+  if (fs::exists(path_) && !is_empty(path_)) {
     const bool of_a_run = has_results() || fs::exists(prepare_log()) || fs::exists(path_ / marker);
     if (!of_a_run)
       throw InputError(
@@ -103,9 +124,30 @@ void RunFolder::clear(bool force) const {
           "--out {}: the folder holds {}; give --force to replace it, or another --out", path_.string(),
           has_results() ? "the results of an earlier run"
                         : "another preparation, or one older than the case"));
+    hold();
     for (const char* output : outputs) fs::remove_all(path_ / output);
+    remove_notes(path_);
   }
+  hold();
+}
+
+void RunFolder::hold() const {
+  if (lock_) return;
+  // OpenFOAM drops blanks and quotes from names of files, LIGGGHTS puts numbers in the place of * and %.
+  const std::string name = fs::absolute(path_).lexically_normal().string();
+  if (const std::size_t at = name.find_first_of(" \t\n\r\v\f\"'`\\;*%${}"); at != std::string::npos)
+    throw InputError(
+        fmt::format("--out {}: OpenFOAM and LIGGGHTS take no folder with '{}' in its path; choose "
+                    "another --out",
+                    printable(name), printable(name.substr(at, 1))));
   fs::create_directories(path_);
+  lock_.emplace(path_, RunLock::Part::command);
+}
+
+void RunFolder::wait_for_programs(double seconds) const {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (lock_ && lock_->other_holder() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 void RunFolder::mark_ready() const {

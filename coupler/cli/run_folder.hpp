@@ -2,9 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "coupler/config/parameters.hpp"
+#include "coupler/output/run_lock.hpp"
 
 namespace demvof {
 
@@ -22,12 +25,18 @@ class RunFolder {
   /// and nothing of a run.
   bool ready() const;
   /// Throws InputError unless the run in the folder can go on with these parameters: it is that of the same
-  /// fluid case, and has left a state that fits.
-  void require_continuable() const;
+  /// fluid case, and has left a state that fits and is whole.
+  /// from: after so many windows; absent: the latest. Returns what else has changed in the case, one key per
+  /// line.
+  std::vector<std::string> require_continuable(std::optional<long> from) const;
   /// Makes the folder, or empties it of an earlier run. Throws InputError rather than lose data: when
   /// it holds something else, when it is where the case itself lives, or when it holds results or another
   /// preparation and force is false.
   void clear(bool force) const;
+  /// Takes the folder for this process until its end. Throws InputError when a run is going on in it.
+  void hold() const;
+  /// Waits until no program of a run holds the folder any more, s at most.
+  void wait_for_programs(double seconds) const;
   /// Marks the preparation as done.
   void mark_ready() const;
 
@@ -37,6 +46,7 @@ class RunFolder {
 
   const CaseParameters& parameters_;
   std::filesystem::path path_;
+  mutable std::optional<RunLock> lock_;
 };
 
 }  // namespace demvof

@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
+
+#include "coupler/config/read_case.hpp"
 
 namespace demvof {
 
@@ -36,6 +39,7 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
       ->allow_extra_args(false);
   app.add_flag("--continue", options.continues,
                "go on from the last state that the run in the folder has left");
+  app.add_option("--from", options.from, "with --continue: go on from the state after so many windows");
   app.add_flag("--check", options.check, "open both sides, compare them, and stop before the first step");
   try {
     app.parse(argc, argv);
@@ -47,6 +51,14 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
   if (options.out.empty()) options.out = std::filesystem::path(options.case_file).parent_path() / "run";
   options.out = std::filesystem::absolute(options.out).lexically_normal();
   return options;
+}
+
+double start_patience(const ProgramOptions& options) {
+  try {
+    return read_case(options.case_file, options.overrides).coupling.time_out;
+  } catch (const std::exception&) {
+    return CouplingParameters().time_out;
+  }
 }
 
 }  // namespace demvof

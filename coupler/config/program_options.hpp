@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct ProgramOptions {
   std::filesystem::path out;           // folder of the run; default: run beside the case file
   std::vector<std::string> overrides;  // --set key=value
   bool continues = false;              // from the latest state that a run has left in out
+  std::optional<long> from;            // ... or from the state after so many windows
   bool check = false;                  // everything up to the handshake, no step
   std::string command;                 // as typed
 };
@@ -21,5 +23,9 @@ struct ProgramOptions {
 /// job) and ends the program with exit code 0, a wrong command line with exit code 2.
 ProgramOptions read_program_options(const std::string& program, const std::string& about, int argc,
                                     char** argv);
+
+/// How long the processes of a run may take to start, s: coupling.time_out; its default when the case file
+/// cannot be read, which comes out later.
+double start_patience(const ProgramOptions& options);
 
 }  // namespace demvof

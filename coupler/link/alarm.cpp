@@ -14,11 +14,13 @@ constexpr std::size_t longest = 3000;  // short enough to leave without the rece
 
 }  // namespace
 
-void Alarm::cry(const std::string& reason, int exit_code) noexcept {
+void Alarm::cry(const Failure& failure) noexcept {
   try {
     int size = 0, rank = 0;
     if (MPI_Comm_size(both_, &size) != MPI_SUCCESS || MPI_Comm_rank(both_, &rank) != MPI_SUCCESS) return;
-    texts_.push_back(static_cast<char>(exit_code) + reason.substr(0, longest));
+    Failure said = failure;
+    said.message = said.message.substr(0, longest);
+    texts_.push_back(to_text(said));
     const std::string& text = texts_.back();
     for (int to = 0; to < size; ++to) {
       if (to == rank) continue;
@@ -41,7 +43,7 @@ std::optional<Alarm::Cry> Alarm::listen() {
   std::string text(length, ' ');
   check_mpi(MPI_Recv(text.data(), length, MPI_CHAR, status.MPI_SOURCE, tag, both_, MPI_STATUS_IGNORE),
             "MPI_Recv of a cry");
-  return Cry{status.MPI_SOURCE, text.empty() ? 0 : text[0], text.substr(text.empty() ? 0 : 1)};
+  return Cry{status.MPI_SOURCE, failure_from(text).value_or(Failure{})};
 }
 
 void Alarm::hold_on(double seconds) noexcept {

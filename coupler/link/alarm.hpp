@@ -8,22 +8,23 @@
 #include <string>
 #include <vector>
 
+#include "coupler/link/failure.hpp"
+
 namespace demvof {
 
 /// A word from a failing rank to every other rank of the pair.
 class Alarm {
  public:
   struct Cry {
-    int from;       // rank in the pair's communicator
-    int exit_code;  // of the crier
-    std::string reason;
+    int from;         // rank in the pair's communicator
+    Failure failure;  // its exit code is the crier's
   };
 
   /// both: the communicator of all ranks of both programs; nothing else uses its messages' tag.
   explicit Alarm(MPI_Comm both) : both_(both) {}
 
   /// Does not wait and does not throw; hold_on gives it time to arrive.
-  void cry(const std::string& reason, int exit_code) noexcept;
+  void cry(const Failure& failure) noexcept;
   /// What was heard since the last call, if anything.
   std::optional<Cry> listen();
   /// Keeps MPI going until the cries are under way, at most this long.

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <mutex>
+#include <nlohmann/json.hpp>
 
 #include "coupler/link/run_stage.hpp"
 
@@ -17,8 +18,35 @@ namespace {
 std::mutex guard;
 std::function<void(const Failure&)> last_words;
 std::atomic<bool> claimed{false};
+std::optional<Failure> cause;
 
 }  // namespace
+
+Failure failure_here(Side side, int exit_code, const std::string& message) {
+  return {exit_code, side, run_stage().stage(), run_stage().time(), message};
+}
+
+std::string to_text(const Failure& failure) {
+  const nlohmann::json json = {{"exit_code", failure.exit_code},
+                               {"side", side_name(failure.side)},
+                               {"stage", failure.stage},
+                               {"time", failure.time},
+                               {"message", failure.message}};
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::optional<Failure> failure_from(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  try {
+    const Side side = json.at("side") == side_name(Side::fluid) ? Side::fluid : Side::particles;
+    const auto& time = json.at("time");
+    return Failure{json.at("exit_code"), side, json.at("stage"), time.is_number() ? time.get<double>() : 0,
+                   json.at("message")};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
 
 void set_last_words(std::function<void(const Failure&)> words) {
   const std::lock_guard lock(guard);
@@ -29,11 +57,10 @@ bool claim_failure() {
   return !claimed.exchange(true);
 }
 
-void report_failure(int exit_code, const std::string& message, bool quiet) {
-  const Failure failure{exit_code, run_stage().stage(), run_stage().time(), message};
+void report_failure(const Failure& failure, const std::string& text, bool quiet) {
   if (!quiet) {
-    const std::string text = fmt::format("\n{}\n", message);
-    std::fwrite(text.data(), 1, text.size(), stderr);
+    const std::string lines = fmt::format("\n{}\n", text);
+    std::fwrite(lines.data(), 1, lines.size(), stderr);
     std::fflush(stderr);
   }
   const std::lock_guard lock(guard);
@@ -49,6 +76,16 @@ void end_now(int exit_code) {
   std::cout.flush();
   std::fflush(nullptr);
   _exit(exit_code);
+}
+
+void heard_of(const Failure& failure) {
+  const std::lock_guard lock(guard);
+  if (!cause) cause = failure;
+}
+
+std::optional<Failure> cause_heard() {
+  const std::lock_guard lock(guard);
+  return cause;
 }
 
 }  // namespace demvof

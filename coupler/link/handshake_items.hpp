@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,21 @@ namespace demvof {
 
 /// What both programs of a pair state before a run, and must agree on. The configuration hash stands
 /// for the whole case file (window, bulk grid, exchange ...); gravity is the one fact that each
-/// solver's own input states once more.
+/// solver's own input states once more. out: the folder of the run, empty: not told; state: the checksum of
+/// the state from which it is continued, or "no".
 inline std::vector<HandshakeItem> handshake_items(const std::string& version,
-                                                  const std::string& configuration_hash,
-                                                  const Vec3& gravity) {
+                                                  const std::string& configuration_hash, const Vec3& gravity,
+                                                  const std::filesystem::path& out = {},
+                                                  const std::string& state = "no") {
   constexpr double typed_twice = 1e-6;  // relative; numbers that a user wrote in two files
-  return {{"version", version},
-          {"configuration hash (case file and --set options)", configuration_hash},
-          {"gravity, m/s2 (constant/g, fix gravity)",
-           fmt::format("{} {} {}", gravity.x, gravity.y, gravity.z), typed_twice}};
+  std::vector<HandshakeItem> items = {
+      {"version", version},
+      {"configuration hash (case file and --set options)", configuration_hash},
+      {"gravity, m/s2 (constant/g, fix gravity)", fmt::format("{} {} {}", gravity.x, gravity.y, gravity.z),
+       typed_twice},
+      {"--continue (checksum of the state)", state}};
+  if (!out.empty()) items.push_back({"--out", std::filesystem::weakly_canonical(out).string()});
+  return items;
 }
 
 }  // namespace demvof

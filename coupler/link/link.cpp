@@ -210,6 +210,7 @@ void Link::meet_before_the_end() {
 }
 
 bool Link::agree_to_continue(Continue wish) {
+  patience_.set_up_done();
   if (wish == Continue::run && stop_requested()) wish = Continue::stop_requested;
   int gravest[] = {static_cast<int>(wish), in_a_hurry()};
   MPI_Request request;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 #include <string>
 
 #include "coupler/base/errors.hpp"
@@ -38,6 +39,10 @@ int guarded_main(OwnWorld& world, const std::function<int()>& body) {
         exit_failed,
         stopped(world, fmt::format("{}.\nWhat to try: the solver wrote the reason to {}.", error.what(),
                                    world.side() == Side::fluid ? "fluid.log" : "particles.log")));
+  } catch (const std::bad_alloc&) {
+    world.fail(exit_failed, stopped(world,
+                                    "the machine has no more memory for it.\nWhat to try: a coarser mesh "
+                                    "or bulk grid, or more machines."));
   } catch (const std::exception& error) {
     world.fail(exit_failed, stopped(world, error.what()));
   } catch (...) {

@@ -13,6 +13,7 @@
 #include "coupler/link/pmpi.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
+#include "coupler/link/start_limit.hpp"
 
 namespace demvof {
 namespace {
@@ -30,7 +31,8 @@ std::thread::id main_thread;
 // Somebody ends the program behind our back: exit() in a solver, an exception nobody catches.
 void sudden_end(const char* why) {
   if (std::this_thread::get_id() != main_thread || !current) {
-    if (claim_failure()) report_failure(exit_failed, why);
+    if (claim_failure())
+      report_failure(failure_here(current ? current->side() : Side::fluid, exit_failed, why), why);
     end_now(exit_failed);
   }
   current->fail(exit_failed, std::string(program_name(current->side())) + " stopped " +
@@ -64,8 +66,10 @@ MPI_Comm duplicate(MPI_Comm comm) {
 
 }  // namespace
 
-OwnWorld::OwnWorld(int& argc, char**& argv, Side side) : side_(side), pair_(std::make_unique<Pair>()) {
+OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double patience, const std::filesystem::path& notes)
+    : side_(side), pair_(std::make_unique<Pair>()) {
   if (current) throw std::logic_error("one OwnWorld per process");
+  const StartLimit limit(side, patience);
   int provided = 0;
   check_mpi(PMPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   pair_->both = duplicate(MPI_COMM_WORLD);
@@ -97,6 +101,7 @@ OwnWorld::OwnWorld(int& argc, char**& argv, Side side) : side_(side), pair_(std:
 
   current = this;
   main_thread = std::this_thread::get_id();
+  if (!notes.empty()) leave_notes_in(notes, self_);
   pair_->alarm = std::make_unique<Alarm>(pair_->both);
   pair_->watch = std::make_unique<Watch>(self_, others);
   install_signal_handlers();
@@ -116,8 +121,8 @@ const Process& OwnWorld::partner(int rank) const {
   throw std::logic_error("no such partner rank");
 }
 
-void OwnWorld::cry_for_help(const std::string& reason, int exit_code) const noexcept {
-  pair_->alarm->cry(reason, exit_code);
+void OwnWorld::cry_for_help(const std::string& reason) const noexcept {
+  pair_->alarm->cry(failure_here(side_, exit_failed, reason));
 }
 
 void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const {
@@ -125,10 +130,17 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
     for (int i = 0; i < 100; ++i) std::this_thread::sleep_for(100ms);
     end_now(exit_code);
   }
-  if (!heard) cry_for_help(message, exit_code);
+  Failure failure = failure_here(side_, exit_code, message);
+  // What another process was the first to tell is the cause, also of what followed from it here.
+  if (const std::optional<Failure> cause = cause_heard()) {
+    failure = *cause;
+    failure.exit_code = exit_code;
+  }
+  leave_note(failure);
+  if (!heard) pair_->alarm->cry(failure);
   // Rank 0 passes on what others said. All ranks of a side mostly fail with the same words: rank 0 says
   // them, and the others wait for it.
-  report_failure(exit_code, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
+  report_failure(failure, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
                  rank_ != 0 && (heard || heard_the_same(message)));
   pair_->alarm->hold_on(1.0);
   const auto until = std::chrono::steady_clock::now() + (heard ? time_for_the_crier : time_for_the_partner);
@@ -146,7 +158,8 @@ bool OwnWorld::heard_the_same(const std::string& reason) const {
   for (int i = 0; i < 60; ++i) {
     try {
       if (const auto cry = pair_->alarm->listen())
-        if (pair_->processes[cry->from].side == side_ && cry->reason == reason.substr(0, cry->reason.size()))
+        if (const std::string& said = cry->failure.message;
+            pair_->processes[cry->from].side == side_ && said == reason.substr(0, said.size()))
           return true;
     } catch (const std::exception&) {
       return false;

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,7 +28,9 @@ namespace demvof {
 /// One per process. A program started alone, without its partner, works too.
 class OwnWorld {
  public:
-  OwnWorld(int& argc, char**& argv, Side side);
+  /// patience: for the other processes to start, s; who waits longer ends the process with exit code 4. 0:
+  /// for ever. notes: the folder in which a failing process leaves the reason (failure.hpp); empty: none.
+  OwnWorld(int& argc, char**& argv, Side side, double patience = 0, const std::filesystem::path& notes = {});
   ~OwnWorld();  // does not finalise MPI: finalise() does, once
   OwnWorld(const OwnWorld&) = delete;
   OwnWorld& operator=(const OwnWorld&) = delete;
@@ -48,7 +51,7 @@ class OwnWorld {
   const Process& partner(int rank) const;
 
   /// Tells every other rank of the pair that this side fails, without waiting for an answer.
-  void cry_for_help(const std::string& reason, int exit_code = exit_failed) const noexcept;
+  void cry_for_help(const std::string& reason) const noexcept;
   /// Ends this process before its time: says why (message), speaks the last words (failure.hpp), lets
   /// the partner hear of it, and exits with the code, without destructors. From the main thread.
   /// heard: the reason is what another rank said, to all of us.

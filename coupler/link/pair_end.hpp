@@ -40,10 +40,13 @@ class PairEnd {
   /// False once a side has asked for an end before that of the plan.
   bool goes_on() const { return goes_on_; }
 
+  /// The last window of the plan is done: a stop asked for in it changes nothing.
+  bool done() const { return number_ >= plan_.windows; }
+
   /// At the end of a window: whether both sides now write what the run can be continued from, and that both
-  /// have.
+  /// have. files: of this side (state_files.hpp); returned are the partner's.
   bool writes() const;
-  void both_have_written() { link_.meet("the partner to write its state"); }
+  std::string both_have_written(const std::string& files = "{}") { return link_.swap_text(files); }
 
   /// The orderly end, when both sides are done.
   void close() { link_.close(); }

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "coupler/link/own_world.hpp"
+#include "coupler/link/signs_of_life.hpp"
 
 namespace demvof {
 
 /// Waiting for others without burning a core, not for ever, and not for the dead.
 class Patience {
  public:
-  Patience(const OwnWorld& world, double time_out_seconds) : world_(world), time_out_(time_out_seconds) {}
+  /// Until set_up_done() the time-out counts from the last sign of life of the partner's processes, not from
+  /// the start of a wait: reading a mesh, or settling a bed, takes as long as it takes.
+  Patience(const OwnWorld& world, double time_out_seconds);
+  void set_up_done() { set_up_.reset(); }
 
   /// Polls done() with growing pauses until it is true. Throws PartnerLost or FellowFailed when a rank
   /// of the partner or of this side cries for help, and PartnerLost when a process ends or the time-out
@@ -44,6 +49,7 @@ class Patience {
 
   const OwnWorld& world_;
   double time_out_;
+  std::optional<SignsOfLife> set_up_;
 };
 
 }  // namespace demvof

@@ -22,11 +22,13 @@ struct Card {
 };
 
 struct KernelView {
-  bool running = false;
+  char state = 'X';
+  double cpu_ticks = 0;
   unsigned long long start = 0;
 };
 
-// /proc/PID/stat: "pid (name) state ...", the start time is field 22. The name may hold anything.
+// /proc/PID/stat: "pid (name) state ...", CPU time in fields 14 and 15, the start time is field 22. The name
+// may hold anything.
 KernelView look_up(long pid) {
   std::ifstream file(fmt::format("/proc/{}/stat", pid));
   std::string line;
@@ -35,10 +37,14 @@ KernelView look_up(long pid) {
   char state = 'X';
   fields >> state;
   std::string skipped;
-  for (int field = 4; field < 22; ++field) fields >> skipped;
+  for (int field = 4; field < 14; ++field) fields >> skipped;
+  double user = 0, system = 0;
+  fields >> user >> system;
+  for (int field = 16; field < 22; ++field) fields >> skipped;
   KernelView view;
   fields >> view.start;
-  view.running = state != 'Z' && state != 'X' && state != 'x';
+  view.state = state;
+  view.cpu_ticks = user + system;
   return view;
 }
 
@@ -80,9 +86,16 @@ std::vector<Process> all_processes(MPI_Comm comm, const Process& self) {
   return processes;
 }
 
+Activity activity_of(const Process& process) {
+  const KernelView seen = look_up(process.pid);
+  if (seen.start != process.start) return {};
+  return {seen.state, seen.cpu_ticks / static_cast<double>(sysconf(_SC_CLK_TCK))};
+}
+
 bool is_running(const Process& process) {
   const KernelView seen = look_up(process.pid);
-  return seen.running && seen.start == process.start;
+  const bool running = seen.state != 'Z' && seen.state != 'X' && seen.state != 'x';
+  return running && seen.start == process.start;
 }
 
 }  // namespace demvof

@@ -26,6 +26,12 @@ struct Process {
 Process this_process(Side side, int rank);
 /// All processes of a communicator in the order of its ranks. Collective.
 std::vector<Process> all_processes(MPI_Comm comm, const Process& self);
+/// What the kernel says of a process of this host.
+struct Activity {
+  char state = 'X';        // R, S, D, T, Z, ... as in proc(5); X: there is none
+  double cpu_seconds = 0;  // used so far, all threads
+};
+Activity activity_of(const Process& process);
 /// False when the process has ended, be it unburied (a zombie), or cannot be seen from here
 /// (another host, another process namespace).
 bool is_running(const Process& process);

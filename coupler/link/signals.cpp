@@ -5,6 +5,7 @@
 
 #include <atomic>
 
+#include "coupler/link/crash.hpp"
 #include "coupler/link/watch.hpp"
 
 namespace demvof {
@@ -29,6 +30,7 @@ void install_signal_handlers() {
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, nullptr);
   }
+  install_crash_handlers();
 }
 
 bool stop_requested() {

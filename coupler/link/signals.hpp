@@ -13,6 +13,7 @@ namespace demvof {
 /// MPI_Finalize meanwhile. So SIGUSR1 is the way to stop a pair in good order; after SIGTERM both
 /// sides end their window and leave without finalising MPI; and SIGTERM wakes the watch (watch.hpp),
 /// which knows whether somebody has died.
+/// With them come the handlers of crashes (crash.hpp).
 void install_signal_handlers();
 
 /// True once one of the signals has come. The link carries it to every rank of both sides.

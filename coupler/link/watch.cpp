@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/link/crash.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/run_stage.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr long turn_ms = 200;         // between two looks at the processes
 constexpr long main_thread_ms = 300;  // for a waiting main thread to report a loss itself
 constexpr long linger_ms = 300;   // for the others to find the first death, not ours, and to have their say
+constexpr long crash_ms = 500;    // for the others to find the death and its reason, before mpirun acts on it
 constexpr long report_ms = 6000;  // for the main thread to report and end the process
 
 struct Bell {
@@ -50,7 +52,7 @@ class SignalsBlocked {
 
 }  // namespace
 
-Watch::Watch(const Process& self, const std::vector<Process>& others) : self_name_(self.name()) {
+Watch::Watch(const Process& self, const std::vector<Process>& others) : self_(self) {
   for (const Process& other : others)
     if (other.host == self.host && is_running(other)) watched_.push_back(other);
   const SignalsBlocked inherited_by_the_thread;
@@ -68,7 +70,9 @@ void Watch::look_now() {
 }
 
 void Watch::check() const {
-  if (lost_) throw PartnerLost(loss_);
+  if (!lost_) return;
+  if (loss_code_) throw FellowFailed(loss_, *loss_code_);
+  throw PartnerLost(loss_);
 }
 
 const Process* Watch::find_ended() const {
@@ -80,6 +84,7 @@ const Process* Watch::find_ended() const {
 void Watch::keep_watch() {
   while (!quit_) {
     wait_for_bell(turn_ms);
+    if (const int number = crash_signal()) handle_crash(number);
     if (quit_ || standing_down_) continue;
     if (const Process* ended = find_ended()) {
       handle_loss(*ended);
@@ -88,24 +93,48 @@ void Watch::keep_watch() {
   }
 }
 
+void Watch::pause(long milliseconds) {
+  for (long waited = 0; waited < milliseconds && !quit_ && !standing_down_; waited += 20) wait_for_bell(20);
+}
+
 void Watch::handle_loss(const Process& ended) {
-  loss_ = fmt::format(
-      "{} lost {}: it was killed or ended without a word. {} was {}.\n"
-      "What to try: see what it wrote last, and whether the machine ran out of memory.",
-      self_name_, ended.name(), "This side", run_stage().describe());
+  int exit_code = exit_partner_lost;
+  if (const std::optional<Failure> note = note_of(ended)) {
+    heard_of(*note);
+    loss_ = fmt::format("{}: {} failed:\n{}", self_.name(), ended.name(), note->message);
+    if (ended.side == self_.side) exit_code = *(loss_code_ = note->exit_code);
+  } else {
+    loss_ = fmt::format(
+        "{} lost {}: it was killed or ended without a word. This side was {}.\n"
+        "What to try: see what it wrote last, and whether the machine ran out of memory.",
+        self_.name(), ended.name(), run_stage().describe());
+    heard_of(failure_here(ended.side, exit_partner_lost, loss_));
+  }
   lost_ = true;
-  const auto pause = [this](long milliseconds) {
-    for (long waited = 0; waited < milliseconds && !quit_ && !standing_down_; waited += 20) wait_for_bell(20);
-  };
   if (main_waits_) pause(main_thread_ms);
   if (quit_ || standing_down_) return;
   if (claim_failure()) {
-    report_failure(exit_partner_lost, loss_);
+    Failure failure = *cause_heard();
+    failure.exit_code = exit_code;
+    leave_note(failure);
+    report_failure(failure, loss_);
     pause(linger_ms);
-    end_now(exit_partner_lost);
+    end_now(exit_code);
   }
   pause(report_ms);
-  if (!quit_ && !standing_down_) end_now(exit_partner_lost);
+  if (!quit_ && !standing_down_) end_now(exit_code);
+}
+
+void Watch::handle_crash(int number) {
+  const std::string text = fmt::format("{} stopped {}:\n{}", program_name(self_.side), run_stage().describe(),
+                                       describe_crash(number, self_.side));
+  if (claim_failure()) {
+    const Failure failure = failure_here(self_.side, exit_failed, text);
+    leave_note(failure);
+    report_failure(failure, self_.rank == 0 ? text : fmt::format("[rank {}] {}", self_.rank, text));
+    pause(crash_ms);
+  }
+  end_now(exit_failed);
 }
 
 }  // namespace demvof

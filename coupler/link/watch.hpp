@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,10 +14,13 @@ namespace demvof {
 /// Looks after the other processes of the pair on this host, from a thread of its own: the main
 /// thread may be deep inside a solver when one of them is killed.
 ///
+/// When this process itself crashes (crash.hpp), the watch tells so and ends it with exit code 3.
+///
 /// When one has ended, a main thread that waits for the partner throws PartnerLost (check); one that
 /// computes is not waited for: the watch itself reports, speaks the last words and ends the process
-/// with exit code 4. mpirun kills the rest of a job one or two seconds after the first death.
-/// Processes on other hosts cannot be seen: their loss shows when the link's time-out passes.
+/// with exit code 4; a note that the dead process has left (failure.hpp) says why. mpirun kills the rest of a
+/// job one or two seconds after the first death. Processes on other hosts cannot be seen: their loss shows
+/// when the link's time-out passes.
 class Watch {
  public:
   /// others: processes to look after; those that cannot be seen from here are left out.
@@ -40,10 +44,13 @@ class Watch {
   void keep_watch();
   const Process* find_ended() const;
   void handle_loss(const Process& ended);
+  void handle_crash(int number);
+  void pause(long milliseconds);
 
-  std::string self_name_;
+  Process self_;
   std::vector<Process> watched_;
-  std::string loss_;  // written once before lost_ is set
+  std::string loss_;              // written once before lost_ is set
+  std::optional<int> loss_code_;  // of a fellow that left a note; likewise
   std::atomic<bool> lost_{false}, main_waits_{false}, standing_down_{false}, quit_{false};
   std::thread thread_;
 };

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "coupler/base/checksum.hpp"
 #include "coupler/base/errors.hpp"
 #include "coupler/output/write_file.hpp"
 
@@ -15,11 +18,95 @@ namespace demvof {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr auto latest = "latest.json";
+using Json = nlohmann::ordered_json;
 
 fs::path folder_of_all(const fs::path& run) {
   return run / "restart";
+}
+fs::path latest_file(const fs::path& run) {
+  return folder_of_all(run) / "latest.json";
+}
+fs::path state_file(const fs::path& run, long window) {
+  return restart_folder(run, window) / "state.json";
+}
+
+std::array<double, 3> corner(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+Vec3 vec3(const Json& json) {
+  return {json.at(0), json.at(1), json.at(2)};
+}
+
+std::string text_of(const RestartPoint& point) {
+  Json text = {{"window", point.window},
+               {"time", point.time},
+               {"fluid_time", point.fluid_time},
+               {"window_length", point.frame.window_length},
+               {"bulk_lower", corner(point.frame.bulk_lower)},
+               {"bulk_upper", corner(point.frame.bulk_upper)},
+               {"bulk_cells", point.frame.bulk_cells},
+               {"fluid_ranks", point.frame.fluid_ranks},
+               {"configuration", Json::parse(point.configuration)},
+               {"files", Json::parse(to_text(point.files))}};
+  text["checksum"] = Checksum().add(text.dump()).text();
+  return text.dump(1) + "\n";
+}
+
+/// Throws InputError when the file is not there or not what text_of() made.
+RestartPoint read(const fs::path& path) {
+  std::ifstream stream(path);
+  if (!stream) throw InputError(fmt::format("there is no {}", path.string()));
+  try {
+    Json text = Json::parse(stream);
+    RestartPoint point;
+    point.checksum = text.at("checksum");
+    text.erase("checksum");
+    if (Checksum().add(text.dump()).text() != point.checksum)
+      throw InputError(fmt::format("{} is not what was written", path.string()));
+    text.at("window").get_to(point.window);
+    text.at("time").get_to(point.time);
+    text.at("fluid_time").get_to(point.fluid_time);
+    text.at("window_length").get_to(point.frame.window_length);
+    point.frame.bulk_lower = vec3(text.at("bulk_lower"));
+    point.frame.bulk_upper = vec3(text.at("bulk_upper"));
+    text.at("bulk_cells").get_to(point.frame.bulk_cells);
+    text.at("fluid_ranks").get_to(point.frame.fluid_ranks);
+    point.configuration = text.at("configuration").dump();
+    point.files = state_files(text.at("files").dump());
+    return point;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+/// Windows after which there is a folder of a state, whole or not, the newest first.
+std::vector<long> windows_of_states(const fs::path& run) {
+  std::vector<long> windows;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of_all(run), none)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
+      windows.push_back(std::stol(name));
+  }
+  std::sort(windows.rbegin(), windows.rend());
+  return windows;
+}
+
+/// What to do instead of going on from a state that is damaged.
+std::string offer(const fs::path& run, std::optional<long> damaged) {
+  for (const long window : windows_of_states(run)) {
+    if (window == damaged) continue;
+    try {
+      const RestartPoint other = read(state_file(run, window));
+      if (find_damage(other.files, run, [](const std::string&) { return true; }).empty())
+        return fmt::format(
+            "The newest state that is whole is the one after window {}, t = {} s: go on from it with "
+            "--continue --from {}",
+            window, other.time, window);
+    } catch (const InputError&) {
+    }
+  }
+  return "There is no other state that is whole; start a new run";
 }
 
 void require_same(const fs::path& run, bool same, const std::string& key, const std::string& then) {
@@ -28,15 +115,34 @@ void require_same(const fs::path& run, bool same, const std::string& key, const 
                                  key, then, run.string()));
 }
 
-void require_fit(const fs::path& run, const RestartPoint& point, const CaseParameters& now) {
-  require_same(run, std::abs(point.window_length - now.coupling.window) <= 1e-12 * point.window_length,
-               "coupling.window", fmt::format("{} s", point.window_length));
-  require_same(run, now.bulk_grid && now.bulk_grid->cells == point.bulk_cells, "bulk_grid.cells",
-               fmt::format("[{}]", fmt::join(point.bulk_cells, ", ")));
-  require_same(run, now.fluid.ranks == point.fluid_ranks, "fluid.ranks", std::to_string(point.fluid_ranks));
-  if (now.coupling.end_time < point.time + 0.5 * point.window_length)
+/// A corner typed twice, against the size of the grid, m.
+bool same_place(const Vec3& a, const Vec3& b, double size) {
+  return norm(a - b) <= 1e-9 * size;
+}
+
+void require_fit(const fs::path& run, const RestartPoint& point, const StateFrame& now, double end_time) {
+  const StateFrame& then = point.frame;
+  require_same(run, std::abs(then.window_length - now.window_length) <= 1e-12 * then.window_length,
+               "coupling.window", fmt::format("{} s", then.window_length));
+  require_same(run, now.bulk_cells == then.bulk_cells, "bulk_grid.cells",
+               fmt::format("[{}]", fmt::join(then.bulk_cells, ", ")));
+  const double size = norm(then.bulk_upper - then.bulk_lower);
+  require_same(run, same_place(then.bulk_lower, now.bulk_lower, size), "bulk_grid.lower",
+               fmt::format("[{}]", fmt::join(corner(then.bulk_lower), ", ")));
+  require_same(run, same_place(then.bulk_upper, now.bulk_upper, size), "bulk_grid.upper",
+               fmt::format("[{}]", fmt::join(corner(then.bulk_upper), ", ")));
+  require_same(run, now.fluid_ranks == then.fluid_ranks, "fluid.ranks", std::to_string(then.fluid_ranks));
+  if (end_time < point.time + 0.5 * then.window_length)
     throw InputError(fmt::format("--continue: the run in {} is at {} s already; set coupling.end_time later",
                                  run.string(), point.time));
+}
+
+void remove_states(const fs::path& run, const std::vector<long>& windows) {
+  for (const long window : windows) {
+    // First what makes it a state, so that no half of one is ever taken for whole.
+    fs::remove(state_file(run, window));
+    fs::remove_all(restart_folder(run, window));
+  }
 }
 
 }  // namespace
@@ -45,14 +151,24 @@ fs::path restart_folder(const fs::path& run, long window) {
   return folder_of_all(run) / std::to_string(window);
 }
 
-void write_restart_point(const fs::path& run, const RestartPoint& point) {
-  const nlohmann::ordered_json text = {
-      {"window", point.window},         {"time", point.time},
-      {"fluid_time", point.fluid_time}, {"window_length", point.window_length},
-      {"bulk_cells", point.bulk_cells}, {"fluid_ranks", point.fluid_ranks}};
-  write_file_atomically(folder_of_all(run) / latest, text.dump(1) + "\n");
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_of_all(run)))
-    if (entry.is_directory() && entry.path() != restart_folder(run, point.window)) fs::remove_all(entry);
+void write_restart_point(const fs::path& run, const RestartPoint& point, int kept) {
+  const std::string text = text_of(point);
+  write_file_atomically(state_file(run, point.window), text, Durable::yes);
+  write_file_atomically(latest_file(run), text, Durable::yes);
+  std::vector<long> others;
+  int newest = 0;
+  for (const long window : windows_of_states(run))
+    if (window > point.window || !fs::exists(state_file(run, window)) || ++newest > kept)
+      others.push_back(window);
+  remove_states(run, others);
+}
+
+void go_back_to(const fs::path& run, const RestartPoint& point) {
+  write_file_atomically(latest_file(run), text_of(point), Durable::yes);
+  std::vector<long> later = windows_of_states(run);
+  later.erase(std::remove_if(later.begin(), later.end(), [&](long window) { return window <= point.window; }),
+              later.end());
+  remove_states(run, later);
 }
 
 void keep_earlier(const fs::path& run, const std::string& file) {
@@ -65,29 +181,46 @@ void keep_earlier(const fs::path& run, const std::string& file) {
   publish_file(run / file, kept);
 }
 
-RestartPoint read_restart_point(const fs::path& run, const CaseParameters& parameters) {
-  const fs::path path = folder_of_all(run) / latest;
-  std::ifstream stream(path);
-  if (!stream)
-    throw InputError(
-        fmt::format("--continue: there is no {}; a run of a pair leaves one at each field output "
-                    "(output.interval) and at "
-                    "its end",
-                    path.string()));
+RestartPoint read_restart_point(const fs::path& run, std::optional<long> window, const StateFrame& now,
+                                double end_time) {
   RestartPoint point;
   try {
-    const auto text = nlohmann::json::parse(stream);
-    text.at("window").get_to(point.window);
-    text.at("time").get_to(point.time);
-    text.at("fluid_time").get_to(point.fluid_time);
-    text.at("window_length").get_to(point.window_length);
-    text.at("bulk_cells").get_to(point.bulk_cells);
-    text.at("fluid_ranks").get_to(point.fluid_ranks);
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+    point = read(window ? state_file(run, *window) : latest_file(run));
+  } catch (const InputError& error) {
+    if (windows_of_states(run).empty())
+      throw InputError(
+          fmt::format("--continue: {}; a run of a pair leaves one at each field output (output.interval) and "
+                      "at its end",
+                      error.what()));
+    throw InputError(fmt::format("--continue: {}. {}", error.what(), offer(run, window)));
   }
-  require_fit(run, point, parameters);
+  require_fit(run, point, now, end_time);
   return point;
+}
+
+void require_whole(const fs::path& run, const RestartPoint& point,
+                   const std::function<bool(const std::string& name)>& wanted) {
+  const std::string damage = find_damage(point.files, run, wanted);
+  if (!damage.empty())
+    throw InputError(fmt::format("--continue: the state after window {} is damaged: {}. {}", point.window,
+                                 (run / damage).string(), offer(run, point.window)));
+}
+
+std::vector<std::string> changed_keys(const std::string& before, const std::string& now) {
+  const Json then = Json::parse(before).flatten(), present = Json::parse(now).flatten();
+  const auto name = [](std::string pointer) {
+    std::replace(pointer.begin(), pointer.end(), '/', '.');
+    return pointer.substr(1);
+  };
+  std::vector<std::string> lines;
+  for (const auto& [pointer, value] : then.items())
+    if (!present.contains(pointer))
+      lines.push_back(fmt::format("{}: {}, now not given", name(pointer), value.dump()));
+    else if (present[pointer] != value)
+      lines.push_back(fmt::format("{}: {}, now {}", name(pointer), value.dump(), present[pointer].dump()));
+  for (const auto& [pointer, value] : present.items())
+    if (!then.contains(pointer)) lines.push_back(fmt::format("{}: now {}", name(pointer), value.dump()));
+  return lines;
 }
 
 }  // namespace demvof

@@ -52,22 +52,17 @@ int prepare_folder(MPI_Comm world, const std::filesystem::path& folder, const st
 vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<double>& values);
 vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>& values);
 
-/// Writes data with one of VTK's XML writers, complete or not at all.
+/// Writes data with one of VTK's XML writers, complete or not at all. VTK writes to memory, and what it made
+/// goes to the file from there: its own file streams keep silent about a disk that is full.
 template <class Writer, class Data>
 void write(const std::filesystem::path& path, Data* data) {
-  std::filesystem::path part = path;
-  part += ".part";
   vtkNew<Writer> writer;
-  writer->SetFileName(part.c_str());
+  writer->WriteToOutputStringOn();
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  if (writer->Write() != 1) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error("cannot write " + path.string());
-  }
-  publish_file(part, path);
+  if (writer->Write() != 1) throw std::runtime_error("cannot write " + path.string());
+  write_file_atomically(path, writer->GetOutputString());
 }
 
 }  // namespace demvof::vtk_file

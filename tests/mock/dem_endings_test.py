@@ -75,7 +75,7 @@ for name, (case_text, script_text, options, code, words) in endings.items():
 # The partner is killed: dem_side tells how far the run came.
 returned, said, out = run("killed", case, script, "--killed-in-window", "5")
 results = json.loads((out / "results.json").read_text()) if (out / "results.json").exists() else {}
-told = (results.get("status") == "failed" and results["failure"]["side"] == "particles"
+told = (results.get("status") == "failed" and results["failure"]["side"] == "fluid"
         and results["steps"] == {"windows": 4, "fluid": 0, "particles": 40})
 print(f"killed: exit code {returned}, results.json {'tells so' if told else results}")
 if not told or "foam_side" not in said:

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "coupler/config/parameters.hpp"
+#include "coupler/output/restart_point.hpp"
+
+namespace demvof {
+
+/// What a state of this case belongs to.
+inline StateFrame state_frame(const CaseParameters& parameters, int fluid_ranks) {
+  StateFrame frame;
+  frame.window_length = parameters.coupling.window;
+  frame.fluid_ranks = fluid_ranks;
+  if (!parameters.bulk_grid) return frame;
+  frame.bulk_lower = parameters.bulk_grid->lower;
+  frame.bulk_upper = parameters.bulk_grid->upper;
+  frame.bulk_cells = parameters.bulk_grid->cells;
+  return frame;
+}
+
+}  // namespace demvof

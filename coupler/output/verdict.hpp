@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupler/output/results.hpp"
+
+namespace demvof {
+
+/// Whether what a run computed can be true. Wrong physics is no completed run: first it is a warning, and
+/// beyond reason a failure.
+struct Verdict {
+  std::vector<std::string> warnings;
+  std::optional<std::string> failure;  // what is beyond reason, and what to try
+};
+
+/// At the end of a run. largest_courant: of any step.
+Verdict judge(const RunResults& results, double largest_courant);
+
+/// In the run: the first of the recorded quantities that is not a number, and what to try. Empty: all are.
+std::string find_nonsense(const std::vector<std::pair<std::string, double>>& quantities);
+
+}  // namespace demvof

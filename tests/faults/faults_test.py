@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What becomes of a run under injected faults: faults_test.py DEMVOF LIBRARY FOLDER [--long] [unittest arguments]
+
+A state that the run can be continued from is whole or is not there; a run whose files are cut is never `completed`;
+whoever fails is named. --long: every file of a run, 200 kills, more flipped bits.
+"""
+import errno
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification" / "pair"))
+from box_case import BoxCase, Open, Particle, Wall, SIDES  # noqa: E402
+from pair import Pair  # noqa: E402
+
+LONG = "--long" in sys.argv
+DEMVOF, LIBRARY, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+RANDOM = random.Random(14)
+
+
+def beads_into_water(folder, fine=(8, 4, 8), **keys):
+    beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
+                      velocity=(0, 0, -0.3)) for i in range(12)]
+    keys = {"end_time": 0.01, "output_interval": 2e-3, **keys}
+    end_time = keys.pop("end_time")
+    return BoxCase(folder, (0.04, 0.02, 0.04), fine, (8, 4, 8), end_time, window=1e-3, level=0.0174,
+                   gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
+                   sides={side: Open() if side == "z+" else Wall() for side in SIDES}, **keys).write()
+
+
+def demvof(case_file, out, *options, fault=None, timeout=120):
+    """Exit code and what was printed."""
+    environment = dict(os.environ)
+    if fault:
+        environment.update(LD_PRELOAD=LIBRARY, DEMVOF_FAULT=fault)
+    force = [] if "--continue" in options else ["--force"]
+    done = subprocess.run([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], text=True, env=environment,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout, check=False)
+    return done.returncode, done.stdout
+
+
+def status(out):
+    return json.loads((out / "results.json").read_text())
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / self._testMethodName
+        self.case_file = beads_into_water(self.folder)
+        self.out = self.folder / "run"
+
+    def whole(self):
+        """history.csv of the run that nothing befell."""
+        out = self.folder / "whole"
+        code, text = demvof(self.case_file, out)
+        self.assertEqual(code, 0, text)
+        return (out / "history.csv").read_text()
+
+    def continues(self, whole):
+        code, text = demvof(self.case_file, self.out, "--continue")
+        self.assertEqual(code, 0, text)
+        self.assertEqual((self.out / "history.csv").read_text(), whole)
+
+    # ---- full disks
+
+    def check_full_disk(self, operation, name, count, whole):
+        """From the count-th of these operations on, the disk is full for this file."""
+        shutil.rmtree(self.out, ignore_errors=True)
+        what = f"{operation} {name} {count}"
+        code, text = demvof(self.case_file, self.out, fault=f"{what} {errno.ENOSPC}")
+        self.assertEqual(code, 3, what + "\n" + text)
+        if name != "results.json":
+            results = status(self.out)
+            self.assertEqual(results["status"], "failed", what)
+            self.assertIn(name.rstrip(".").split("/")[-1].split(".")[0], results["failure"]["message"], what)
+        if (self.out / "restart" / "latest.json").exists():
+            self.continues(whole)
+
+    def test_full_disk(self):
+        whole = self.whole()
+        # At the second output: LIGGGHTS's restart file (behind particles.json), OpenFOAM's fields, VTK's files.
+        faults = [("write", "restart/4/particles.", 2), ("open", "fluid/0.004/voidFraction", 1),
+                  ("write", "particles_000002.vtp", 1)]
+        if LONG:
+            fields = ["voidFraction", "U", "phi", "alpha.water", "p_rgh", "velocityFlux", "uniform/time"]
+            faults += [(operation, f"fluid/0.004/{field}", 1) for operation in ("open", "write") for field in fields]
+            faults += [("open", "restart/4/particles.", 2), ("write", "restart/4/particles.json", 1),
+                       ("write", "restart/4/fluid.0.", 1), ("write", "restart/4/state.json", 1),
+                       ("write", "latest.json", 2), ("write", "history.csv", 5), ("write", "bulk_000002.vti", 1),
+                       ("write", "bulk.pvd", 3), ("write", "particles.pvd", 3), ("write", "results.json", 1)]
+        for fault in faults:
+            self.check_full_disk(*fault, whole)
+
+    # ---- damage to a state
+
+    def test_flipped_bits(self):
+        code, text = demvof(self.case_file, self.out, "--set", "coupling.end_time=0.004")
+        self.assertEqual(code, 0, text)
+        state = json.loads((self.out / "restart/latest.json").read_text())
+        files = sorted(state["files"]) + ["restart/latest.json"]
+        before = (self.out / "results.json").read_bytes()
+        for _ in range(1000 if LONG else 200):
+            file = self.out / RANDOM.choice(files)
+            content = file.read_bytes()
+            # What stands behind a state in history.csv, and blanks of latest.json, are no part of it.
+            end = state["files"].get(str(file.relative_to(self.out)), {}).get("bytes", len(content))
+            places = [i for i in range(end) if not (file.suffix == ".json" and content[i:i + 1].isspace())]
+            place, bit = RANDOM.choice(places), RANDOM.randrange(8)
+            damaged = bytearray(content)
+            damaged[place] ^= 1 << bit
+            file.write_bytes(damaged)
+            code, text = demvof(self.case_file, self.out, "--continue", "--set", "coupling.end_time=0.006")
+            self.assertEqual(code, 2, f"{file}, byte {place}, bit {bit}\n{text}")
+            self.assertIn(file.name, text)
+            file.write_bytes(content)
+        self.assertEqual((self.out / "results.json").read_bytes(), before, "a refusal leaves what it finds")
+
+    def test_the_newest_whole_state_is_offered(self):
+        whole = self.whole()
+        code, text = demvof(self.case_file, self.out)
+        self.assertEqual(code, 0, text)
+        self.assertEqual(sorted(f.name for f in (self.out / "restart").iterdir()), ["10", "8", "latest.json"])
+        (self.out / "restart/10/particles").write_bytes(b"")
+        results = (self.out / "results.json").read_bytes()
+        code, text = demvof(self.case_file, self.out, "--continue", "--set", "coupling.end_time=0.012")
+        self.assertEqual(code, 2, text)
+        self.assertIn("restart/10/particles has 0 bytes", text)
+        self.assertIn("--continue --from 8", text)
+        self.assertEqual((self.out / "results.json").read_bytes(), results)
+        code, text = demvof(self.case_file, self.out, "--continue", "--from", "8")
+        self.assertEqual(code, 0, text)
+        self.assertEqual((self.out / "history.csv").read_text(), whole)
+
+    # ---- kills
+
+    def check_kills(self, count, ranks):
+        whole = self.whole()
+        options = ("--fluid-ranks", str(ranks), "--particle-ranks", str(ranks), "--set", "output.interval=0.001")
+        for number in range(count):
+            shutil.rmtree(self.out, ignore_errors=True)
+            pair = Pair(DEMVOF, self.case_file, self.out, *options)
+            time.sleep(RANDOM.uniform(0.3, 4))
+            victims = pair.pids("foam_side") + pair.pids("dem_side")
+            if victims and pair.process.poll() is None:
+                os.kill(RANDOM.choice(victims), signal.SIGKILL)
+            code, text = pair.wait(60)
+            if code == 0:
+                continue  # it was through
+            self.assertEqual(code, 4, f"kill {number}\n{text}")
+            self.assertEqual(status(self.out)["status"], "failed")
+            if not (self.out / "restart/latest.json").exists():
+                continue  # killed before the first state
+            code, text = demvof(self.case_file, self.out, "--continue", *options)
+            self.assertEqual(code, 0, f"kill {number}\n{text}")
+            if ranks == 1:
+                self.assertEqual((self.out / "history.csv").read_text(), whole)
+
+    def test_kills(self):
+        self.check_kills(100 if LONG else 2, 1)
+
+    @unittest.skipUnless(LONG, "minutes: with --long")
+    def test_kills_of_several_ranks(self):
+        self.check_kills(100, 2)
+
+    def test_killed_at_the_start(self):
+        pair = Pair(DEMVOF, self.case_file, self.out, "--quiet")
+        while not pair.pids("foam_side") and pair.process.poll() is None:
+            time.sleep(0.01)
+        os.kill(pair.pids("foam_side")[0], signal.SIGKILL)
+        code, text = pair.wait(60)
+        self.assertIn(code, (3, 4), text)
+        self.assertEqual(status(self.out)["status"], "failed")
+
+    def test_mpirun_killed(self):
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        pair = Pair(DEMVOF, self.case_file, self.out)
+        pair.wait_for_window(2)
+        os.kill(pair.pids("mpirun")[0], signal.SIGKILL)
+        code, text = pair.wait(60)
+        self.assertIn(code, (3, 4), text)
+        self.assertIn(status(self.out)["status"], ("failed", "interrupted"))
+        self.assertEqual(pair.pids("foam_side") + pair.pids("dem_side"), [])
+
+    # ---- crashes
+
+    def check_crash(self, victim, number, side):
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        pair = Pair(DEMVOF, self.case_file, self.out, "--fluid-ranks", "2")
+        pair.wait_for_window(2)
+        os.kill(pair.pids(victim)[-1], number)
+        code, text = pair.wait(60)
+        self.assertEqual(code, 3, text)
+        failure = status(self.out)["failure"]
+        self.assertEqual(failure["side"], side, failure)
+        self.assertGreater(failure["time"], 0, failure)
+        self.assertIn(signal.Signals(number).name, failure["message"])
+
+    def test_a_fluid_rank_crashes(self):
+        self.check_crash("foam_side", signal.SIGFPE, "fluid")
+
+    def test_the_particles_crash(self):
+        self.check_crash("dem_side", signal.SIGSEGV, "particles")
+
+    # ---- one run, one folder
+
+    def test_a_second_run_is_told_who_is_there(self):
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        pair = Pair(DEMVOF, self.case_file, self.out)
+        pair.wait_for_window(2)
+        for options in (("--continue",), ()):
+            code, text = demvof(self.case_file, self.out, *options)
+            self.assertEqual(code, 2, text)
+            self.assertIn(f"process {pair.process.pid} on ", text)
+        code, text = pair.wait(120)
+        self.assertEqual(code, 0, text)
+
+    # ---- starting
+
+    def test_a_partner_that_is_no_program_of_ours(self):
+        case_file = beads_into_water(self.folder, coupling={"time_out": 3})
+        subprocess.run([DEMVOF, "prepare", str(case_file), "--out", str(self.out)], check=True, stdout=subprocess.DEVNULL)
+        foam_side = pathlib.Path(DEMVOF).parent / "foam_side"
+        begin = time.monotonic()
+        done = subprocess.run(["mpirun", "-np", "1", str(foam_side), str(case_file), "--out", str(self.out), ":", "-np", "1",
+                               "sleep", "60"], text=True, capture_output=True, timeout=50, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertIn("waited 3 s for the other processes of the run to start", done.stderr)
+
+    def test_a_partner_stopped_at_its_start(self):
+        case_file = beads_into_water(self.folder, coupling={"time_out": 3})
+        pair = Pair(DEMVOF, case_file, self.out)
+        while not pair.pids("dem_side") and pair.process.poll() is None:
+            time.sleep(0.005)
+        os.kill(pair.pids("dem_side")[0], signal.SIGSTOP)
+        code, text = pair.wait(40)
+        self.assertIn(code, (3, 4), text)
+
+    def test_a_script_longer_than_the_time_out(self):
+        case_file = beads_into_water(self.folder, coupling={"time_out": 3}, script_tail="shell sleep 1\nrun 0\n" +
+                                     "variable i loop 900000\nlabel again\nnext i\njump SELF again\n")
+        begin = time.monotonic()
+        code, text = demvof(case_file, self.out)
+        self.assertEqual(code, 0, text)
+        print(f"{time.monotonic() - begin:.1f} s with a script that takes long")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + [word for word in sys.argv[4:] if word != "--long"], verbosity=2)
