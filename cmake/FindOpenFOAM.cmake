@@ -22,7 +22,7 @@ set(_headers
 set(_libraries
     OpenFOAM finiteVolume meshTools dynamicMesh dynamicFvMesh fvOptions sampling surfMesh fileFormats
     incompressibleTransportModels twoPhaseMixture twoPhaseProperties interfaceProperties
-    immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels)
+    immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels waveModels)
 
 # A sourced environment comes as a whole: its headers are never mixed with another installation's libraries.
 set(_header_search ${PROJECT_SOURCE_DIR}/build/openfoam)

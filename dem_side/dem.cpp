@@ -15,6 +15,7 @@
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/sphere.hpp"
+#include "dem_side/script_advice.hpp"
 #include "dem_side/script_requirements.hpp"
 #include "domain.h"
 #include "fix_external.h"
@@ -129,7 +130,8 @@ void Dem::by_the_script(Work&& work) {
   try {
     guarded(work);
   } catch (const SolverStopped& stop) {
-    throw InputError(script_.string() + ": " + stop.what());
+    const std::string advice = advice_on(stop.what(), script_);
+    throw InputError(script_.string() + ": " + stop.what() + (advice.empty() ? "" : "\n" + advice));
   }
 }
 
@@ -226,6 +228,14 @@ bool Dem::inserts_particles() const {
     inserts |= is_insertion(fix) && fix.next_reneighbor > liggghts_->update->ntimestep;
   });
   return inserts;
+}
+
+std::vector<std::string> Dem::moved_surfaces() const {
+  std::vector<std::string> fixes;
+  for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
+    if (std::string_view(fix.style) == "move/mesh") fixes.emplace_back(fix.id);
+  });
+  return fixes;
 }
 
 long Dem::inserted() const {

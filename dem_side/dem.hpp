@@ -86,10 +86,11 @@ class Dem {
   ContactTimes contact_times() const;  // collective
   Vec3 gravity() const;                // m/s2
   ParticleDomain domain() const;
-  ParticleCensus census() const;   // collective
-  bool inserts_particles() const;  // the script has an insertion that is not over yet
-  long inserted() const;           // particles that its insertions have put in so far, all ranks
-  long taken_out() const;          // particles that its outlets (fix massflow/mesh) have deleted so far
+  ParticleCensus census() const;                    // collective
+  bool inserts_particles() const;                   // the script has an insertion that is not over yet
+  std::vector<std::string> moved_surfaces() const;  // fixes that move one (move/mesh)
+  long inserted() const;   // particles that its insertions have put in so far, all ranks
+  long taken_out() const;  // particles that its outlets (fix massflow/mesh) have deleted so far
 
   /// One value row per particle that goes with it from rank to rank, and from run to run; rows of new
   /// particles are 0.

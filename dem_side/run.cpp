@@ -52,6 +52,7 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
                         {"max_diameter", census.max_diameter},
                         {"solid_volume", census.solid_volume},
                         {"inserts_particles", dem.inserts_particles()},
+                        {"moved_surfaces", dem.moved_surfaces()},
                         {"time_step", dem.time_step()},
                         {"periodic", dem.domain().periodic},
                         {"collision_time", contacts.collision},

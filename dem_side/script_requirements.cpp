@@ -24,7 +24,9 @@ bool starts_with(std::string_view text, std::string_view begin) {
 std::string_view objection(std::string_view style) {
   if (starts_with(style, "multisphere") || starts_with(style, "rigid") || style == "concave")
     return "particles made of several spheres cannot be coupled yet; use single spheres";
-  if (starts_with(style, "couple/cfd")) return "dem_side exchanges with the fluid itself; remove the line";
+  if (starts_with(style, "couple/cfd"))
+    return "dem_side exchanges with the fluid itself; remove the line (its forces: 'forces' in the case "
+           "file)";
   if (style == "buoyancy")
     return "the pressure gradient of the fluid already lifts the particles; remove the line, or unfix it "
            "before the script ends";

@@ -9,7 +9,7 @@
 // Gravity, surface tension and pressure meet at the face: where they balance, flux and velocity are
 // zero for any void fraction and any drag.
 
-#include "foam_side/flow.hpp"
+#include "foam_side/extras.hpp"
 #include "inletOutletFvPatchFields.H"
 #include "transformFvPatchFields.H"
 
@@ -25,6 +25,7 @@ tmp<scalarField> rate_to_serve(const Flow& flow) {
 }
 
 void update_face_velocity(Flow& flow) {
+  // phi is still that in space.
   if (flow.velocity_flux) *flow.velocity_flux = flow.phi / flow.pressure_system.face_drag->eps_f;
   if (!flow.face_velocity) return;
   const surfaceVectorField normal(flow.mesh.Sf() / flow.mesh.magSf());
@@ -60,7 +61,9 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
     at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
     if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
   }
+  if (flow.mesh.moving()) through -= flow.mesh.phi();
   Foam::adjustPhi(through, flow.U, flow.p_rgh);
+  if (flow.mesh.moving()) through += flow.mesh.phi();
   forAll(flow.mesh.boundary(), patch) if (!given(patch))
           flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
 }
@@ -102,7 +105,8 @@ void correct_pressure(Flow& flow) {
 
   const volVectorField h(
       Foam::constrainHbyA(*system.inverse_diagonal * system.momentum->H(), flow.U, flow.p_rgh));
-  const surfaceScalarField transported(fvc::flux(h) + *system.memory);
+  surfaceScalarField transported(fvc::flux(h) + *system.memory);
+  extras(flow).rotating.makeRelative(transported);
   surfaceScalarField phiHbyA(unforced_flux(flow, transported));
   if (flow.p_rgh.needReference()) balance_boundary(flow, phiHbyA);
   phiHbyA += mobility * flow.face_force();
@@ -110,7 +114,7 @@ void correct_pressure(Flow& flow) {
   if (flow.porosity)
     Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, phiHbyA, mobility);
   else
-    Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility);
+    Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility, extras(flow).rotating);
 
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, flow.p_rgh) == fvc::div(phiHbyA));
@@ -127,8 +131,10 @@ void correct_pressure(Flow& flow) {
     else
       update_velocity(flow, h, flow.face_force() - pressure_flux / mobility);
     flow.U.correctBoundaryConditions();
+    if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
   }
   update_face_velocity(flow);
+  make_relative(flow);
 }
 
 }  // namespace demvof

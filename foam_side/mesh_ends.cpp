@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "coupler/base/errors.hpp"
+#include "foam_side/extras.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "processorCyclicPolyPatch.H"
+#include "wallPolyPatch.H"
 
 namespace demvof {
 namespace {
@@ -20,9 +22,14 @@ struct Ends {
   double area = 0, cyclic = 0;
 };
 
+/// What leaves through the patch comes in elsewhere. A baffle or a sliding interface inside the domain has
+/// its other side at the same place.
 bool wraps(const Foam::polyPatch& patch) {
-  return patch.coupled() &&
-         (!Foam::isA<Foam::processorPolyPatch>(patch) || Foam::isA<Foam::processorCyclicPolyPatch>(patch));
+  if (!patch.coupled()) return false;
+  if (Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch))
+    return false;
+  const auto& coupled = Foam::refCast<const Foam::coupledPolyPatch>(patch);
+  return coupled.separated() || !coupled.parallel();
 }
 
 /// The direction whose end the face lies in, -1 for none.
@@ -35,7 +42,13 @@ int end_of(const MeshBox& box, const vector& centre, const vector& normal) {
   return -1;
 }
 
-std::array<Ends, 3> find_ends(const Foam::fvMesh& mesh) {
+/// Per direction; the last is the cyclic area elsewhere, m2.
+struct AllEnds {
+  std::array<Ends, 3> along;
+  double cyclic_elsewhere = 0;
+};
+
+AllEnds find_ends(const Foam::fvMesh& mesh) {
   const MeshBox box = mesh_box(mesh);
   scalarField sums(7, Foam::Zero);  // area and cyclic area per axis, cyclic area elsewhere
   for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
@@ -49,11 +62,7 @@ std::array<Ends, 3> find_ends(const Foam::fvMesh& mesh) {
     }
   }
   Foam::reduce(sums, Foam::sumOp<scalarField>());
-  if (sums[6] > 0)
-    throw InputError(
-        "the fluid mesh has cyclic patches that do not lie in the ends of its box: particles cannot follow "
-        "the fluid there");
-  return {Ends{sums[0], sums[1]}, Ends{sums[2], sums[3]}, Ends{sums[4], sums[5]}};
+  return {{Ends{sums[0], sums[1]}, Ends{sums[2], sums[3]}, Ends{sums[4], sums[5]}}, sums[6]};
 }
 
 void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis) {
@@ -91,16 +100,59 @@ void require_same_kind(int axis, bool periodic, const Ends& ends) {
         name, axis + 1));
 }
 
+bool has_wall_with_velocity(const Flow& flow) {
+  bool moves = false;
+  for (const Foam::fvPatchVectorField& patch : flow.U.boundaryField())
+    if (Foam::isA<Foam::wallPolyPatch>(patch.patch().patch()) && patch.fixesValue())
+      for (const vector& velocity : patch) moves = moves || Foam::mag(velocity) > 0;
+  return Foam::returnReduce(moves, Foam::orOp<bool>());
+}
+
 }  // namespace
 
 void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
-  const std::array<Ends, 3> ends = find_ends(mesh);
+  const AllEnds ends = find_ends(mesh);
+  if (ends.cyclic_elsewhere > 0)
+    throw InputError(
+        "the fluid mesh has cyclic patches that do not lie in the ends of its box: particles cannot follow "
+        "the fluid there");
   const MeshBox box = mesh_box(mesh);
   for (int axis = 0; axis < 3; ++axis) {
     require_cover(grid, box, axis);
     const bool solved = mesh.geometricD()[axis] == 1;
-    if (solved) require_same_kind(axis, grid.periodic()[axis], ends[axis]);
+    if (solved) require_same_kind(axis, grid.periodic()[axis], ends.along[axis]);
   }
+}
+
+std::string slope_without_effect(const Foam::fvMesh& mesh, const vector& g) {
+  const AllEnds ends = find_ends(mesh);
+  for (int axis = 0; axis < 3; ++axis)
+    if (ends.along[axis].cyclic > 0 && std::abs(g[axis]) > tolerance * Foam::mag(g))
+      return fmt::format(
+          "Gravity has {} m/s2 along {}, where the mesh is periodic: p_rgh balances it, so that it moves "
+          "particles and "
+          "not the fluid. Drive the fluid by constant/fvOptions (meanVelocityForce, "
+          "vectorSemiImplicitSource).",
+          g[axis], "xyz"[axis]);
+  return {};
+}
+
+void require_same_motion(const Flow& flow, const std::vector<std::string>& moved) {
+  const bool mesh_moves = extras(flow).motion != MeshMotion::never;
+  if (!moved.empty() && !mesh_moves && !has_wall_with_velocity(flow))
+    throw InputError(fmt::format(
+        "foam_side and dem_side do not agree: the script moves a surface (fix {}, move/mesh), but no wall of "
+        "the "
+        "fluid moves: the particles would be pushed through a fluid that stands still. A wall that moves "
+        "along "
+        "itself, as a drum about its axis, needs its velocity in the fluid case's U (rotatingWallVelocity, "
+        "fixedValue); any other motion is not done with particles: take the fix out of the script",
+        moved.front()));
+  if (moved.empty() && mesh_moves)
+    throw InputError(
+        "foam_side and dem_side do not agree: the fluid's mesh moves (constant/dynamicMeshDict), but no "
+        "surface of the "
+        "script does: move the same walls there with fix move/mesh");
 }
 
 }  // namespace demvof

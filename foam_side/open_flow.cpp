@@ -2,8 +2,7 @@
 // Reads an interFoam case: 0/ (U, p_rgh, alpha.*), constant/ (transportProperties, turbulenceProperties,
 // g, hRef), system/ (controlDict, fvSchemes, fvSolution with PIMPLE and alpha.*).
 
-#include "cyclicAMIPolyPatch.H"
-#include "foam_side/flow.hpp"
+#include "foam_side/extras.hpp"
 
 namespace demvof {
 namespace {
@@ -22,65 +21,6 @@ dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField&
       dimensionedScalar(Foam::dimLength, Foam::Zero));
   const Foam::vector axis = Foam::cmptMag(g.value()) / (Foam::mag(g.value()) + Foam::VSMALL);
   return (g & axis) * height;
-}
-
-void require_euler(const Foam::fvMesh& mesh, const Foam::word& term) {
-  Foam::ITstream& scheme = mesh.ddtScheme(term);
-  const Foam::word name(scheme);
-  if (name != "Euler")
-    FatalIOErrorInFunction(mesh.schemesDict())
-        << "ddtSchemes: " << term << " is " << name << ", this solver does Euler only"
-        << Foam::exit(Foam::FatalIOError);
-}
-
-void refuse_file(const Foam::fvMesh& mesh, const Foam::word& folder, const Foam::word& name) {
-  Foam::IOobject object(name, folder, mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
-  if (object.typeHeaderOk<Foam::IOdictionary>(true))
-    FatalErrorInFunction << folder << '/' << name << ": this solver does not do " << name
-                         << ", remove the file" << Foam::exit(Foam::FatalError);
-}
-
-void require_known_advection(const Flow& flow, const Foam::dictionary& controls) {
-  const Foam::word scheme = controls.lookupOrDefault<Foam::word>("advectionScheme", "MULES");
-  if (scheme == "MULES") return;
-  if (scheme != "isoAdvection")
-    FatalIOErrorInFunction(controls) << "advectionScheme is " << scheme << ", known: MULES, isoAdvection"
-                                     << Foam::exit(Foam::FatalIOError);
-  if (controls.lookupOrDefault("MULESCorr", false))
-    FatalIOErrorInFunction(controls) << "advectionScheme isoAdvection is explicit: MULESCorr only no"
-                                     << Foam::exit(Foam::FatalIOError);
-  for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())
-    if (Foam::isA<Foam::cyclicAMIPolyPatch>(patch))
-      FatalIOErrorInFunction(controls) << "advectionScheme isoAdvection: not with patch " << patch.name()
-                                       << " of type " << patch.type() << Foam::exit(Foam::FatalIOError);
-}
-
-/// Relaxed, the last outer corrector would leave momentum to the next step that nobody counts.
-void require_unrelaxed_end(const Foam::fvMesh& mesh) {
-  const auto refuse = [&mesh](const char* name) {
-    FatalIOErrorInFunction(mesh.solutionDict())
-        << "relaxationFactors: the last outer corrector is not relaxed, " << name << " has to be 1"
-        << Foam::exit(Foam::FatalIOError);
-  };
-  if (mesh.relaxEquation("UFinal") && mesh.equationRelaxationFactor("UFinal") != 1) refuse("UFinal");
-  if (mesh.relaxField("p_rghFinal") && mesh.fieldRelaxationFactor("p_rghFinal") != 1) refuse("p_rghFinal");
-}
-
-void refuse_what_is_not_done(const Flow& flow) {
-  require_euler(flow.mesh, "ddt(rho,U)");
-  require_euler(flow.mesh, "ddt(alpha)");
-  refuse_file(flow.mesh, flow.time.constant(), "MRFProperties");
-  refuse_file(flow.mesh, flow.time.constant(), "fvOptions");
-  refuse_file(flow.mesh, flow.time.system(), "fvOptions");
-
-  const Foam::dictionary& controls = flow.mesh.solverDict(flow.alpha.name());
-  for (const char* key : {"icAlpha", "scAlpha"})
-    if (controls.lookupOrDefault<scalar>(key, 0) != 0)
-      FatalIOErrorInFunction(controls) << key << ": only 0" << Foam::exit(Foam::FatalIOError);
-  if (controls.lookupOrDefault("alphaApplyPrevCorr", false))
-    FatalIOErrorInFunction(controls) << "alphaApplyPrevCorr: only no" << Foam::exit(Foam::FatalIOError);
-  require_known_advection(flow, controls);
-  require_unrelaxed_end(flow.mesh);
 }
 
 void make_continuous(Flow& flow) {
@@ -141,6 +81,7 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
   Foam::FatalError.throwExceptions();
   Foam::FatalIOError.throwExceptions();
   auto flow = std::make_unique<Flow>(args, scene, continued);
+  make_extras(*flow);
   refuse_what_is_not_done(*flow);
   if (refinement) {
     flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);

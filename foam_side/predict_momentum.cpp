@@ -8,7 +8,7 @@
 // meets the pressure at the faces (face_drag.hpp).
 // eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
-#include "foam_side/flow.hpp"
+#include "foam_side/extras.hpp"
 
 namespace demvof {
 namespace {
@@ -25,8 +25,29 @@ tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
 
 tmp<Foam::fvVectorMatrix> inertia_and_stress(Flow& flow) {
   if (flow.porosity) return porous_inertia_and_stress(flow);
-  return fvm::ddt(flow.rho, flow.U) + fvm::div(flow.rho_phi, flow.U) +
-         flow.turbulence->divDevRhoReff(flow.rho, flow.U);
+  tmp<Foam::fvVectorMatrix> momentum = fvm::ddt(flow.rho, flow.U) + fvm::div(flow.rho_phi, flow.U) +
+                                       flow.turbulence->divDevRhoReff(flow.rho, flow.U);
+  if (extras(flow).rotating.active()) momentum.ref() += extras(flow).rotating.DDt(flow.rho, flow.U);
+  return momentum;
+}
+
+/// Sources of fvOptions: what a volume of fluid gets.
+void add_sources(Flow& flow, Foam::fvVectorMatrix& momentum) {
+  if (!extras(flow).sources_of_momentum) return;
+  tmp<Foam::fvVectorMatrix> sources = extras(flow).sources(flow.rho, flow.U);
+  if (flow.porosity) sources.ref() *= flow.porosity->eps.internalField();
+  momentum -= sources;
+}
+
+/// Lets fvOptions fix values, and see how the velocity answers to a force on the fluid: eps/(A + C).
+void constrain(Flow& flow, Foam::fvVectorMatrix& momentum) {
+  if (!extras(flow).sources_of_momentum) return;
+  extras(flow).sources.constrain(momentum);
+  if (!flow.source) return;
+  Foam::fvVectorMatrix answering(momentum);
+  answering.diag() += flow.mesh.V().field() * flow.source->coefficient.field();
+  if (flow.porosity) answering.diag() /= flow.porosity->eps.primitiveField();
+  extras(flow).sources.constrain(answering);
 }
 
 /// The predictor: all forces, those of the particles implicit in U.
@@ -43,19 +64,24 @@ void solve_momentum(Flow& flow, const Foam::fvVectorMatrix& momentum) {
         volume * (source.force.field() + source.coefficient.field() * source.reference.field());
   }
   equation.solve();
+  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
 }
 
 /// Part of the face velocity of the last step that its cell velocities do not know of, m3/s:
-/// (eps rho/A)_f c (u_f - mean(u)).S/dt of the old time, with the weight c of OpenFOAM's ddt scheme.
+/// (eps rho/A)_f c (u_f - mean(u)).S/dt of the old time, with the weight c of OpenFOAM's ddt scheme. In a
+/// zone that rotates there is none.
 tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& response) {
+  if (!flow.porosity) {
+    const tmp<surfaceScalarField> change =
+        flow.face_velocity ? fvc::ddtCorr(flow.U, *flow.face_velocity) : fvc::ddtCorr(flow.U, flow.phi);
+    return extras(flow).rotating.zeroFilter(fvc::interpolate(flow.rho * response) * change);
+  }
   const volVectorField& U0 = flow.U.oldTime();
   tmp<surfaceScalarField> flux0;  // of the velocity between the particles
   if (flow.face_velocity)
     flux0 = flow.mesh.Sf() & flow.face_velocity->oldTime();
-  else if (flow.velocity_flux)
-    flux0 = flow.velocity_flux->oldTime();
   else
-    flux0 = flow.phi.oldTime();
+    flux0 = flow.velocity_flux->oldTime();
   const surfaceScalarField unknown(flux0() - fvc::dotInterpolate(flow.mesh.Sf(), U0));
   const auto scheme = Foam::fv::ddtScheme<vector>::New(flow.mesh, flow.mesh.ddtScheme("ddt(U)"));
   return fvc::interpolate(flow.rho * response) / flow.time.deltaT() *
@@ -69,6 +95,7 @@ tmp<surfaceScalarField> relaxation_memory(const Flow& flow, const volScalarField
                                           const volScalarField& A) {
   tmp<surfaceScalarField> flux =
       flow.porosity ? flow.phi / face_void_fraction(flow.porosity->eps) : 1.0 * flow.phi;
+  if (flow.mesh.moving()) flux.ref() += flow.mesh.phi();
   return fvc::interpolate(1.0 - unrelaxed / A) * (flux - fvc::flux(flow.U));
 }
 
@@ -84,11 +111,15 @@ tmp<surfaceScalarField> relax_momentum(Flow& flow, Foam::fvVectorMatrix& momentu
 
 void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
+  extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.momentum.reset(inertia_and_stress(flow).ptr());
+  add_sources(flow, *system.momentum);
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
+  constrain(flow, *system.momentum);
   if (flow.pimple.momentumPredictor()) solve_momentum(flow, *system.momentum);
 
   const volScalarField A(system.momentum->A());
+  system.inverse_diagonal.reset();  // first: OpenFOAM maps the field that has the name
   system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / A);
   tmp<volScalarField> response(*system.inverse_diagonal);
   if (flow.porosity) response = flow.porosity->eps * *system.inverse_diagonal;

@@ -19,7 +19,9 @@
 #include "coupler/output/run_lock.hpp"
 #include "coupler/scene/plan_windows.hpp"
 #include "coupler/scene/resolved_numbers.hpp"
+#include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
+#include "foam_side/extras.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
 #include "foam_side/replacement.hpp"
@@ -49,7 +51,8 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   const auto before_change = [bridge] {
     if (bridge) bridge->collect_impulse();
   };
-  if (refine_mesh(flow, before_change)) {
+  const bool moves = extras(flow).motion != MeshMotion::never;
+  if (!moves && refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
     if (flow.porosity)
       renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
@@ -59,9 +62,11 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   update_porosity(flow);
   if (bridge) bridge->particles_to_fine().spread_sources();
   while (outer_corrector(flow)) {
+    move_mesh(flow);
     advect_interface(flow);
     if (bridge && flow.porosity && flow.scene.two_fluids)
       follow_surface(flow, bridge->particles_to_fine().void_fraction(part_of_window_after_next_step(flow)));
+    if (flow.pimple.frozenFlow()) continue;
     predict_momentum(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
@@ -257,8 +262,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     add_particle_facts(facts, particles);
     grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
   }
-  const Scene scene =
-      plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
+  Scene scene = plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
   if (link) link->send_plan(plan_windows(parameters, scene, start ? start->window : 0));
 
   run_stage().set("reading the fluid case");
@@ -267,7 +271,17 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const std::unique_ptr<Flow> flow =
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
-  if (paired) require_mesh_fits(*grid, flow->mesh);
+  if (const std::string said = slope_without_effect(flow->mesh, flow->g.value()); !said.empty())
+    scene.decisions.push_back({"slope along a periodic direction", false, said});
+  if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
+    throw InputError(
+        "constant/dynamicMeshDict: dynamicRefineFvMesh: with particles the case file says where the mesh is "
+        "fine: remove "
+        "the file, and write a section fluid.refinement");
+  if (paired) {
+    require_mesh_fits(*grid, flow->mesh);
+    require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));
+  }
   if (scene.interchange == PhaseInterchange::replacement)
     require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
   if (options.check) {

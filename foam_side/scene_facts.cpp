@@ -15,6 +15,13 @@ namespace {
 using Foam::IOobject;
 using Foam::word;
 
+/// Lives until the program ends: with it the libraries that controlDict names would be unloaded, and what
+/// they have registered in OpenFOAM's tables points to nothing then.
+const Foam::Time& case_time(const Foam::argList& args) {
+  static const Foam::Time* const time = new Foam::Time(Foam::Time::controlDictName, args);
+  return *time;
+}
+
 Foam::dictionary read_dictionary(const Foam::Time& time, const Foam::fileName& folder, const word& name) {
   return Foam::IOdictionary(IOobject(name, folder, time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
 }
@@ -55,7 +62,7 @@ bool has_two_fluids(const Foam::Time& time, const word& phase) {
 }  // namespace
 
 SceneFacts fluid_facts(const Foam::argList& args) {
-  const Foam::Time time(Foam::Time::controlDictName, args);
+  const Foam::Time& time = case_time(args);
   const Foam::dictionary transport = read_dictionary(time, time.constant(), "transportProperties");
   const Foam::wordList phases(transport.lookup("phases"));
   SceneFacts facts;
@@ -68,7 +75,7 @@ SceneFacts fluid_facts(const Foam::argList& args) {
 }
 
 Vec3 case_gravity(const Foam::argList& args) {
-  const Foam::Time time(Foam::Time::controlDictName, args);
+  const Foam::Time& time = case_time(args);
   const Foam::uniformDimensionedVectorField g(
       IOobject("g", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
   return to_vec3(g.value());

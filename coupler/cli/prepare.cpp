@@ -9,6 +9,7 @@
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 
 #include "coupler/cli/child_process.hpp"
@@ -19,6 +20,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A start time other than 0, where controlDict says so: its fields, as they are. True if there are any.
+bool copy_start(const fs::path& original, const fs::path& copy) {
+  std::ifstream stream(original / "system" / "controlDict");
+  const std::string control{std::istreambuf_iterator<char>(stream), {}};
+  static const std::regex start("(?:^|\n)\\s*startTime\\s+([^\\s;]+)\\s*;");
+  std::smatch found;
+  if (!std::regex_search(control, found, start) || found[1] == "0") return false;
+  const fs::path fields = original / found[1].str();
+  if (!fs::is_directory(fields)) return false;
+  fs::copy(fields, copy / found[1].str(), fs::copy_options::recursive | fs::copy_options::skip_existing);
+  return true;
+}
+
 void copy_case(const fs::path& original, const fs::path& copy) {
   const auto options = fs::copy_options::recursive;
   for (const char* part : {"constant", "system"}) {
@@ -27,9 +41,11 @@ void copy_case(const fs::path& original, const fs::path& copy) {
     fs::create_directories(copy / part);
     fs::copy(original / part, copy / part, options);
   }
+  const bool starts_later = copy_start(original, copy);
   // 0.orig holds the fields as the user wrote them, 0 those that an earlier setFields left.
   for (const char* fields : {"0.orig", "0"})
     if (fs::is_directory(original / fields)) return fs::copy(original / fields, copy / "0", options);
+  if (starts_later) return;
   throw InputError(fmt::format("{} is no OpenFOAM case: there is neither 0 nor 0.orig", original.string()));
 }
 

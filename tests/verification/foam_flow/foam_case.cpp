@@ -6,6 +6,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "foam_side/extras.hpp"
+
 namespace demvof::test {
 
 namespace files = std::filesystem;
@@ -56,9 +58,10 @@ Scene scene(bool particles, bool porosity, bool surface_tension) {
 }
 
 void do_step(Flow& flow) {
-  if (refine_mesh(flow)) settle_flux(flow);
+  if (extras(flow).motion == MeshMotion::never && refine_mesh(flow)) settle_flux(flow);
   update_porosity(flow);
   while (outer_corrector(flow)) {
+    move_mesh(flow);
     advect_interface(flow);
     predict_momentum(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "foam_case.hpp"
 
 namespace demvof::test {
@@ -12,7 +14,19 @@ struct Variant {
   const char* name;
   Settings settings;
   bool surface_tension;
+  const char* sources = "";  // constant/fvOptions
 };
+
+FoamCase make_case(const std::string& side, const Variant& variant) {
+  FoamCase made(side + "_" + variant.name, variant.settings);
+  if (*variant.sources) {
+    std::ofstream file(made.folder() + "/constant/fvOptions");
+    file << "FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }\n"
+         << variant.sources;
+  }
+  made.run("setFields");
+  return made;
+}
 
 void PrintTo(const Variant& variant, std::ostream* out) {
   *out << variant.name;
@@ -22,12 +36,8 @@ class SameAsInterFoam : public testing::TestWithParam<Variant> {};
 
 TEST_P(SameAsInterFoam, DamBreak50Steps) {
   const Variant& variant = GetParam();
-  const FoamCase theirs(std::string("interfoam_") + variant.name, variant.settings);
-  theirs.run("setFields");
+  const FoamCase theirs = make_case("interfoam", variant), ours = make_case("foam_side", variant);
   theirs.run("interFoam");
-
-  const FoamCase ours(std::string("foam_side_") + variant.name, variant.settings);
-  ours.run("setFields");
   const auto flow = ours.open(scene(false, false, variant.surface_tension));
   advance(*flow);
   ASSERT_EQ(flow->clock.steps, 50);
@@ -64,6 +74,30 @@ Settings with(Settings settings) {
   return settings;
 }
 
+// Fluid that is pushed aside, explicitly and implicitly, through a medium that resists.
+constexpr const char* push_and_resistance = R"(
+push
+{
+    type            vectorSemiImplicitSource;
+    selectionMode   all;
+    volumeMode      specific;
+    injectionRateSuSp { U ((100 0 0) -50); }
+}
+medium
+{
+    type            explicitPorositySource;
+    explicitPorositySourceCoeffs
+    {
+        selectionMode   cellZone;
+        cellZone        box;
+        type            DarcyForchheimer;
+        d               (1e6 1e6 1e6);
+        f               (10 10 10);
+        coordinateSystem { origin (0 0 0); e1 (1 0 0); e2 (0 1 0); }
+    }
+}
+)";
+
 INSTANTIATE_TEST_SUITE_P(
     Settings, SameAsInterFoam,
     testing::Values(
@@ -75,6 +109,19 @@ INSTANTIATE_TEST_SUITE_P(
         Variant{"k_epsilon", with({{"turbulence", "RAS"}, {"ras_model", "kEpsilon"}}), false},
         Variant{"k_omega_sst",
                 with({{"turbulence", "RAS"}, {"ras_model", "kOmegaSST"}, {"predictor", "yes"}}), false},
+        Variant{"contact_angle",
+                with({{"sigma", "0.07"},
+                      {"alpha_sub_cycles", "2"},
+                      {"walls_alpha",
+                       "{ type constantAlphaContactAngle; theta0 60; limit gradient; value uniform 0; }"}}),
+                true},
+        Variant{"crank_nicolson", with({{"ddt", "CrankNicolson 0.9"}, {"predictor", "yes"}}), false},
+        Variant{"moving_mesh",
+                with({{"mesh", "dynamicMotionSolverFvMesh"},
+                      {"walls_U", "{ type movingWallVelocity; value uniform (0 0 0); }"},
+                      {"bottom_U", "{ type movingWallVelocity; value uniform (0 0 0); }"}}),
+                false},
+        Variant{"sources", with({{"predictor", "yes"}}), false, push_and_resistance},
         Variant{"as_shipped_tolerances", {{"sigma", "0.07"}}, true}),
     [](const testing::TestParamInfo<Variant>& info) { return info.param.name; });
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace demvof {
+
+/// What to do about an error of LIGGGHTS while it read the script: the line at fault and its replacement, as
+/// far as the error tells; empty when it says enough by itself.
+std::string advice_on(const std::string& error, const std::filesystem::path& script);
+
+}  // namespace demvof

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Without particles a case may ask whatever interFoam does, with few exceptions. With particles momentum and
+// volume are kept exactly, and what would not keep them is refused.
+
+#include "foam_side/extras.hpp"
+
+#include "cyclicAMIPolyPatch.H"
+#include "dynamicRefineFvMesh.H"
+
+namespace demvof {
+namespace {
+
+constexpr const char* registered = "demvofExtras";
+
+MeshMotion motion_of(const Flow& flow) {
+  if (!flow.mesh.dynamic() || Foam::isA<Foam::dynamicRefineFvMesh>(flow.mesh)) return MeshMotion::never;
+  const bool again = flow.pimple.dict().lookupOrDefault("moveMeshOuterCorrectors", false);
+  return again ? MeshMotion::each_corrector : MeshMotion::each_step;
+}
+
+Foam::word alpha_scheme(const Flow& flow, const Foam::dictionary& alpha) {
+  const bool for_cuts =
+      flow.time.controlDict().lookupOrDefault<Foam::word>("application", "") == "interIsoFoam";
+  return alpha.lookupOrDefault<Foam::word>("advectionScheme", for_cuts ? "isoAdvection" : "MULES");
+}
+
+Foam::word scheme_of(const Foam::fvMesh& mesh, const Foam::word& term) {
+  return Foam::word(mesh.ddtScheme(term));
+}
+
+void refuse(const std::string& what) {
+  FatalErrorInFunction << what.c_str() << Foam::exit(Foam::FatalError);  // throws
+}
+
+void require_known_time_schemes(const Flow& flow, const AdvectionControls& alpha) {
+  const Foam::word momentum = scheme_of(flow.mesh, "ddt(rho,U)"), liquid = scheme_of(flow.mesh, "ddt(alpha)");
+  for (const Foam::word& name : {momentum, liquid}) {
+    if (flow.scene.particles && name != "Euler")
+      refuse("ddtSchemes: " + name +
+             ": with particles Euler only, which keeps their momentum and volume exactly");
+    if (name == "localEuler" || name == "steadyState")
+      refuse("ddtSchemes: " + name +
+             ": steps of each cell's own lead to a steady state, not through time; use Euler");
+  }
+  if (alpha.geometric) return;  // takes its own step
+  if (liquid != "Euler" && liquid != "CrankNicolson")
+    refuse("ddtSchemes: ddt(alpha) is " + liquid +
+           ", known: Euler, CrankNicolson (that of ddt(rho,U) is free)");
+  if (liquid == "CrankNicolson" && alpha.sub_cycles > 1)
+    refuse("ddtSchemes: ddt(alpha) CrankNicolson needs nAlphaSubCycles 1");
+}
+
+void require_known_advection(const Flow& flow, const AdvectionControls& alpha) {
+  if (alpha.scheme != "MULES" && alpha.scheme != "isoAdvection")
+    refuse("advectionScheme is " + alpha.scheme + ", known: MULES, isoAdvection");
+  if (!alpha.geometric) return;
+  if (alpha.semi_implicit) refuse("advectionScheme isoAdvection is explicit: MULESCorr only no");
+  if (extras(flow).motion != MeshMotion::never)
+    refuse("advectionScheme isoAdvection: not on a mesh that moves; MULES is");
+  for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())
+    if (Foam::isA<Foam::cyclicAMIPolyPatch>(patch))
+      refuse("advectionScheme isoAdvection: not with patch " + patch.name() + " of type " + patch.type());
+}
+
+/// Relaxed, the last outer corrector would leave momentum to the next step that nobody counts.
+void require_unrelaxed_end(const Flow& flow) {
+  const Foam::fvMesh& mesh = flow.mesh;
+  if (!flow.scene.particles) return;
+  const auto refuse_factor = [](const char* name) {
+    refuse(std::string("relaxationFactors: with particles the last outer corrector is not relaxed, ") + name +
+           " has to be 1");
+  };
+  if (mesh.relaxEquation("UFinal") && mesh.equationRelaxationFactor("UFinal") != 1) refuse_factor("UFinal");
+  if (mesh.relaxField("p_rghFinal") && mesh.fieldRelaxationFactor("p_rghFinal") != 1)
+    refuse_factor("p_rghFinal");
+}
+
+void require_what_particles_bear(const Flow& flow) {
+  if (!flow.scene.particles) return;
+  if (flow.time.startTime().value() != 0)
+    refuse(
+        "controlDict: startTime: with particles, whose windows count from 0, it has to be 0: rename the "
+        "folder");
+  if (extras(flow).rotating.active())
+    refuse(
+        "constant/MRFProperties: a zone that rotates in its equations only stands still for the particles: "
+        "remove the file, or run without particles");
+  if (flow.pimple.frozenFlow())
+    refuse("PIMPLE: frozenFlow: a flow that is given takes no momentum from particles: no");
+  if (extras(flow).motion != MeshMotion::never)
+    refuse("constant/dynamicMeshDict: " + flow.mesh.type() +
+           ": a mesh that moves is not done with particles; without them it is");
+}
+
+}  // namespace
+
+void refuse_what_is_not_done(const Flow& flow) {
+  const AdvectionControls alpha(flow);
+  require_known_advection(flow, alpha);
+  require_known_time_schemes(flow, alpha);
+  require_unrelaxed_end(flow);
+  require_what_particles_bear(flow);
+}
+
+Extras::Extras(const Flow& flow)
+    : regIOobject(Foam::IOobject(registered, flow.time.timeName(), flow.mesh)),
+      rotating(flow.mesh),
+      sources(Foam::fv::options::New(flow.mesh)),
+      sources_of_momentum(sources.appliesToField(flow.U.name())),
+      motion(motion_of(flow)) {
+  if (Foam::word(flow.mesh.ddtScheme("ddt(rho,U)")) == "Euler") return;
+  const Foam::IOobject file(Foam::IOobject::groupName("alphaPhi0", flow.alpha.group()), flow.time.timeName(),
+                            flow.mesh, Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::AUTO_WRITE);
+  liquid_flux = std::make_unique<surfaceScalarField>(file, flow.phi * fvc::interpolate(flow.alpha));
+}
+
+void make_extras(Flow& flow) {
+  Foam::regIOobject::store(new Extras(flow));
+}
+
+Extras& extras(const Flow& flow) {
+  return *flow.mesh.getObjectPtr<Extras>(registered);
+}
+
+AdvectionControls::AdvectionControls(const Flow& flow) {
+  const Foam::dictionary& alpha = flow.mesh.solverDict(flow.alpha.name());
+  scheme = alpha_scheme(flow, alpha);
+  geometric = scheme == "isoAdvection";
+  correctors = geometric ? 1 : alpha.get<label>("nAlphaCorr");
+  sub_cycles = alpha.get<label>("nAlphaSubCycles");
+  semi_implicit = alpha.lookupOrDefault("MULESCorr", false);
+  reuse = semi_implicit && alpha.lookupOrDefault("alphaApplyPrevCorr", false);
+  isotropic = alpha.lookupOrDefault<scalar>("icAlpha", 0);
+  shear = alpha.lookupOrDefault<scalar>("scAlpha", 0);
+}
+
+}  // namespace demvof

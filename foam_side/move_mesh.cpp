@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faces that move, without particles. phi is known in space from the pressure, and has to be known relative
+// to the faces to carry alpha:
+//
+//   phi = (u - u_f).S,   u_f.S dt = volume that the face sweeps in a step
+//
+// The swept volumes add up to the change of V, so that alpha = 1 stays 1. On the moved mesh the flux is the
+// face velocity's, made continuous by a potential as in interFoam, if PIMPLE's correctPhi says so.
+
+#include "foam_side/extras.hpp"
+
+namespace demvof {
+namespace {
+
+bool is_due(const Flow& flow) {
+  const MeshMotion motion = extras(flow).motion;
+  return motion == MeshMotion::each_corrector || (motion == MeshMotion::each_step && flow.pimple.firstIter());
+}
+
+void renew_geometry(Flow& flow) {
+  flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
+  flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
+  flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
+  flow.face_force.clear();
+  extras(flow).rotating.update();
+  if (flow.mesh.topoChanging()) extras(flow).compression.reset();
+}
+
+/// Through patches with a given velocity, which may have moved, goes what it says.
+void renew_given_flux(Flow& flow) {
+  auto& U = flow.U.boundaryFieldRef();
+  forAll(U, patch) if (U[patch].fixesValue()) U[patch].initEvaluate();
+  forAll(U, patch) {
+    if (!U[patch].fixesValue()) continue;
+    U[patch].evaluate();
+    flow.phi.boundaryFieldRef()[patch] == (U[patch] & flow.mesh.Sf().boundaryField()[patch]);
+  }
+}
+
+/// How the velocity answered to a force in the last step, m3 s/kg; before the first one the same everywhere.
+tmp<surfaceScalarField> last_answer(const Flow& flow) {
+  if (const auto& answer = flow.pressure_system.inverse_diagonal) return fvc::interpolate(*answer);
+  return surfaceScalarField::New("rAUf", flow.mesh,
+                                 dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
+}
+
+}  // namespace
+
+void move_mesh(Flow& flow) {
+  if (!is_due(flow)) return;
+  flow.mesh.update();
+  if (!flow.mesh.changing()) return;
+  renew_geometry(flow);
+  if (!flow.pimple.dict().lookupOrDefault("correctPhi", true)) return;
+  flow.phi = flow.mesh.Sf() & *flow.face_velocity;
+  renew_given_flux(flow);
+  fit_flux(flow, last_answer(flow), nullptr);
+  make_relative(flow);
+  flow.mixture.correct();
+}
+
+void make_relative(Flow& flow) {
+  if (flow.mesh.moving()) flow.phi -= flow.mesh.phi();
+}
+
+}  // namespace demvof

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""OpenFOAM's two-phase tutorials as the package openfoam-examples ships them: copies made ready for 20 equal steps."""
+import gzip
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+HERE = pathlib.Path(__file__).resolve().parent
+EXAMPLES = pathlib.Path("/usr/share/doc/openfoam-examples/examples")
+SOLVERS = ("interFoam", "interIsoFoam")
+STEPS = 20
+
+# A mesh that takes a workstation hours: blockMesh with so many times fewer cells each way, and where that is not
+# enough, without the refinement that follows.
+COARSER = {
+    "interFoam/RAS/DTCHull": 2, "interFoam/RAS/DTCHullMoving": 2, "interFoam/RAS/motorBike": 2,
+    "interFoam/RAS/mixerVesselAMI": 2, "interFoam/LES/nozzleFlow2D": 2,
+}
+
+
+class Failed(Exception):
+    """A tutorial that could not be made ready, or a program that did not do what was asked."""
+
+
+def tutorials():
+    """name -> folder of every tutorial of the two solvers; those that Allrun makes from another one included."""
+    found = {}
+    for solver in SOLVERS:
+        for allrun in sorted((EXAMPLES / "multiphase" / solver).rglob("Allrun")):
+            folder = allrun.parent
+            name = str(folder.relative_to(EXAMPLES / "multiphase"))
+            control = folder / "system" / "controlDict"
+            if control.is_file():
+                if re.search(r"^\s*application\s+(\w+)", control.read_text(), re.M)[1] in SOLVERS:
+                    found[name] = folder
+            elif "damBreakFine" in allrun.read_text():
+                found[name + "/damBreakFine"] = folder
+    return found
+
+
+def environment(folder):
+    """For the commands of an Allrun: the packages' OpenFOAM, with the helper functions that no package holds."""
+    project = folder / "project"
+    (project / "bin" / "tools").mkdir(parents=True, exist_ok=True)
+    if not (project / "etc").exists():
+        (project / "etc").symlink_to("/usr/share/openfoam/etc")
+    shutil.copy(HERE / "RunFunctions", project / "bin" / "tools" / "RunFunctions")
+    return {**os.environ, "WM_PROJECT_DIR": str(project), "FOAM_TUTORIALS": str(EXAMPLES)}
+
+
+def copy(source, target):
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.copytree(source, target)
+    for packed in target.rglob("*.gz"):  # Debian packs what is large in /usr/share/doc
+        packed.with_suffix("").write_bytes(gzip.decompress(packed.read_bytes()))
+        packed.unlink()
+
+
+def coarsen(folder, factor):
+    """Fewer cells in each direction of each block."""
+    file = folder / "system" / "blockMeshDict"
+    def fewer(found):
+        counts = [max(1, int(n) // factor) for n in found[2].split()]
+        return f"{found[1]}({' '.join(map(str, counts))})"
+    file.write_text(re.sub(r"(hex\s*\([^)]*\)\s*(?:\w+\s*)?)\(\s*(\d+\s+\d+\s+\d+)\s*\)", fewer, file.read_text()))
+
+
+def prepare(name, source, folder):
+    """The tutorial as its own Allrun makes it ready, on one rank; returns its case folder."""
+    target = folder / "prepared"
+    copy(source, target)
+    if name in COARSER:
+        coarsen(target, COARSER[name])
+    process = subprocess.run(["./Allrun"], cwd=target, env=environment(folder), capture_output=True, text=True, check=False)
+    (folder / "Allrun.log").write_text(process.stdout + process.stderr)
+    if process.returncode != 0:
+        raise Failed("its Allrun: " + (process.stderr.strip().splitlines() or ["exit code"])[0])
+    case = target / "damBreakFine" if name.endswith("/damBreakFine") else target
+    if not list((case / "constant" / "polyMesh").glob("faces*")):
+        raise Failed("its Allrun makes no mesh")
+    return case
+
+
+def entry(dictionary, key, otherwise=None):
+    found = re.search(rf"^\s*{key}\s+([^;]+);", dictionary, re.M)
+    return found[1].strip() if found else otherwise
+
+
+def twenty_steps(case):
+    """Equal steps of the tutorial's deltaT, fields written once with all digits."""
+    file = case / "system" / "controlDict"
+    text = file.read_text()
+    step, begin = float(entry(text, "deltaT")), 0.0
+    lines = {"startFrom": "startTime", "startTime": begin, "stopAt": "endTime", "endTime": begin + STEPS * step, "deltaT": step,
+             "adjustTimeStep": "no", "writeControl": "timeStep", "writeInterval": STEPS, "purgeWrite": 0,
+             "writeFormat": "ascii", "writePrecision": 16, "timePrecision": 9, "writeCompression": "off"}
+    for key in lines:
+        text = re.sub(rf"^\s*{key}\s[^;]*;", "", text, flags=re.M)
+    file.write_text(text + "".join(f"{key} {value};\n" for key, value in lines.items()))
+
+
+def liquid_name(case):
+    text = (case / "constant" / "transportProperties").read_text()
+    return "alpha." + re.search(r"^\s*phases\s*\(\s*(\w+)", text, re.M)[1]
+
+
+def cell_values(file):
+    """The internal field of a scalar field written in ascii."""
+    text = file.read_text()
+    uniform = re.search(r"internalField\s+uniform\s+(\S+);", text)
+    if uniform:
+        return [float(uniform[1])]
+    begin = text.index("(", text.index("internalField"))
+    return [float(word) for word in text[begin + 1:text.index(")", begin)].split()]
+
+
+def difference(one, other):
+    """Largest difference of two fields; None when they have not as many cells."""
+    if len(one) == 1:
+        one = one * len(other)
+    if len(other) == 1:
+        other = other * len(one)
+    return max(abs(a - b) for a, b in zip(one, other)) if len(one) == len(other) else None

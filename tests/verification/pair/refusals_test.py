@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a pair cannot do is refused by `demvof check`, with the reason and what to do: exit code 2, before anything
+starts. And what only looks as if it could not be done is accepted.
+
+Usage: refusals_test.py DEMVOF FOLDER [NAMES]"""
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from box_case import BoxCase, Cyclic, Particle
+
+DEMVOF, FOLDER, NAMES = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+
+HEADER = "FoamFile {{ version 2.0; format ascii; class dictionary; object {}; }}\n"
+STL = ("solid p\nfacet normal 0 0 1\nouter loop\nvertex 0.01 0.01 0.03\nvertex 0.02 0.01 0.03\nvertex 0.01 0.02 0.03\n"
+       "endloop\nendfacet\nendsolid p\n")
+PISTON = "fix piston all mesh/surface file p.stl type 1\nfix push all move/mesh mesh piston linear 0.5 0 0\n"
+SHAKEN = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicMotionSolverFvMesh;
+motionSolverLibs (fvMotionSolvers);
+solver solidBody;
+solidBodyMotionFunction oscillatingLinearMotion;
+oscillatingLinearMotionCoeffs { amplitude (0.01 0 0); omega 10; }
+"""
+REFINES = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicRefineFvMesh;
+refineInterval 1; field alpha.water; lowerRefineLevel 0.1; upperRefineLevel 0.9; unrefineLevel 10; nBufferLayers 1;
+maxRefinement 1; maxCells 10000; correctFluxes ((phi none)); dumpLevel false;
+"""
+ROTATING = HEADER.format("MRFProperties") + "zone { cellZone z; active yes; origin (0 0 0); axis (0 0 1); omega 1; }\n"
+
+
+def box(name, **more):
+    return BoxCase(FOLDER / name, upper=(0.04, 0.04, 0.06), fine=(4, 4, 6), bulk=(4, 4, 6), end_time=0.002, window=1e-3,
+                   dem_step=1e-4, particles=[Particle((0.02, 0.02, 0.02), 4e-3, 2500)], **more)
+
+
+def replaced(case_file, name, old, new):
+    path = case_file.parent / name
+    text = path.read_text()
+    assert old in text, f"{old!r} is not in {path}"
+    path.write_text(text.replace(old, new, 1))
+    return case_file
+
+
+def with_processors():
+    return replaced(box("ranks").write(), "particles/in.particles", "newton off", "newton off\nprocessors 2 2 1")
+
+
+def with_time_scheme():
+    return replaced(box("time_scheme").write(), "fluid/system/fvSchemes", "Euler", "CrankNicolson 0.9")
+
+
+def with_start_time():
+    case_file = replaced(box("start_time").write(), "fluid/system/controlDict", "startTime 0", "startTime 0.5")
+    shutil.copytree(case_file.parent / "fluid" / "0.orig", case_file.parent / "fluid" / "0.5")
+    return case_file
+
+
+def with_zone():
+    case_file = box("rotating_zone", extra_files={"fluid/constant/MRFProperties": ROTATING}).write()
+    return replaced(case_file, "fluid/system/blockMeshDict", "hex (0 1 2 3 4 5 6 7)", "hex (0 1 2 3 4 5 6 7) z")
+
+
+def with_slope():
+    case = box("slope", gravity=(1, 0, -9.81))
+    case.sides.update({"x-": Cyclic(), "x+": Cyclic()})
+    return case.write()
+
+
+def with_library():
+    return replaced(box("library").write(), "fluid/system/controlDict", "startTime 0", 'libs ("libfieldFunctionObjects.so"); startTime 0')
+
+
+# name: (how the case is made, exit code, what has to be said)
+TRIALS = {
+    "ranks_of_the_script": (with_processors, 2,
+                            ["in.particles:", "'processors 2 2 1'", "particles.ranks"]),
+    "name_of_another_coupling": (lambda: box("dragforce", script_tail="compute d all reduce sum f_dragforce[1]\n").write(), 2,
+                                 ["in.particles:", "f_dragforce[1]", "CFDEMcoupling", "'forces'"]),
+    "wall_that_moves_on_one_side": (lambda: box("piston", script_tail=PISTON, extra_files={"particles/p.stl": STL}).write(), 2,
+                                    ["fix push, move/mesh", "no wall of the fluid moves", "rotatingWallVelocity"]),
+    "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
+                        ["dynamicMeshDict", "with particles"]),
+    "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
+                                 ["dynamicRefineFvMesh", "fluid.refinement"]),
+    "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
+    "time_scheme": (with_time_scheme, 2, ["ddtSchemes", "with particles Euler only"]),
+    "start_time": (with_start_time, 2, ["startTime", "rename the folder"]),
+    "slope_along_a_periodic_direction": (with_slope, 0, ["along x, where the mesh is periodic", "meanVelocityForce"]),
+    "library_in_controlDict": (with_library, 0, []),
+}
+
+
+def main():
+    wrong = 0
+    for name, (make, code, words) in TRIALS.items():
+        if NAMES and name not in NAMES:
+            continue
+        check = subprocess.run([DEMVOF, "check", make()], capture_output=True, text=True, timeout=120, check=False)
+        said = " ".join((check.stdout + check.stderr).split())
+        missing = [word for word in words if word not in said]
+        good = check.returncode == code and not missing
+        wrong += not good
+        print(f"{name}: {'as it should be' if good else f'code {check.returncode}, not {code}; not said: {missing}; said: {said[-600:]}'}")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
