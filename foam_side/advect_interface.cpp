@@ -13,6 +13,8 @@
 
 #include "CrankNicolsonDdtScheme.H"
 #include "foam_side/extras.hpp"
+#include "foam_side/flow.hpp"
+#include "foam_side/fluid_books.hpp"
 #include "foam_side/geometric_flux.hpp"
 
 namespace demvof {
@@ -225,6 +227,7 @@ void advance_alone(Flow& flow, const dimensionedScalar& rho1, const dimensionedS
   if (end < 1) mean = end * flow.phi + (1 - end) * flow.phi.oldTime();
   tmp<surfaceScalarField> liquid = advance_alpha_in_parts(
       flow, {mean(), flow.phi, end}, [](double, double) { return Foam::geometricOneField(); });
+  note_liquid_flux(flow, liquid());
   const std::unique_ptr<surfaceScalarField>& liquid_flux = extras(flow).liquid_flux;
   if (!liquid_flux) {
     flow.rho_phi = (rho1 - rho2) * liquid + rho2 * mean;
@@ -243,6 +246,7 @@ void advect_interface(Flow& flow) {
   if (!flow.scene.interface_advection) {
     flow.mixture.incompressibleTwoPhaseMixture::correct();  // viscosity may depend on the flow
     flow.rho_phi = fvc::interpolate(flow.rho) * flow.phi;
+    note_liquid_flux(flow, fvc::interpolate(flow.alpha) * flow.phi);
     if (!flow.face_force.valid()) update_face_force(flow);
     return;
   }
@@ -258,7 +262,10 @@ void advect_interface(Flow& flow) {
   } else {
     advance_alone(flow, rho1, rho2);
   }
-  if (heavy_flux.valid()) flow.rho_phi = (rho1 - rho2) * heavy_flux + rho2 * flow.phi;
+  if (heavy_flux.valid()) {
+    note_liquid_flux(flow, flow.ghost ? heavy_flux() - flow.ghost->flux : heavy_flux);
+    flow.rho_phi = (rho1 - rho2) * heavy_flux + rho2 * flow.phi;
+  }
   update_mixture(flow);
   update_face_force(flow);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// After the last correction of a step: total pressure, impulse of the implicit particle force, bounds.
+// After the last correction of a step: total pressure, impulse of the implicit particle force, books, bounds.
 
 #include <algorithm>
 
 #include "foam_side/flow.hpp"
+#include "foam_side/fluid_books.hpp"
 
 namespace demvof {
 namespace {
@@ -36,6 +37,7 @@ void watch_bounds(Flow& flow) {
 void end_step(Flow& flow) {
   update_total_pressure(flow);
   if (flow.source) accumulate_impulse(flow, *flow.source);
+  keep_books(flow);
   watch_bounds(flow);
   if (!flow.clock.windowed) flow.time.write();
 }

@@ -3,6 +3,7 @@
 
 #include "coupler/transfer/remap.hpp"
 #include "foam_side/openfoam.hpp"
+#include "foam_side/vectors.hpp"
 
 namespace demvof {
 
@@ -15,12 +16,5 @@ struct MeshBox {
   Vec3 lower, upper;
 };
 MeshBox mesh_box(const Foam::fvMesh& mesh);
-
-inline Vec3 to_vec3(const Foam::vector& v) {
-  return {v.x(), v.y(), v.z()};
-}
-inline Foam::vector to_foam(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
 
 }  // namespace demvof

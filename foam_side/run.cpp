@@ -22,6 +22,7 @@
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
 #include "foam_side/extras.hpp"
+#include "foam_side/fluid_books.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
 #include "foam_side/replacement.hpp"
@@ -72,6 +73,21 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   }
   end_step(flow);
   return true;
+}
+
+/// What flowed and acted in the window or step just done.
+void enter_books(Flow& flow, FluidReport& report) {
+  const FluidBooks books = take_books(flow);
+  report.liquid_volume = liquid_volume(flow);
+  report.liquid_in = books.liquid_in;
+  if (!flow.source) return;
+  report.momentum = fluid_momentum(flow);
+  report.outside.fluid_weight = books.weight;
+  report.outside.boundary_pressure = books.boundary_pressure;
+  report.outside.boundary_shear = books.boundary_shear;
+  report.outside.carried_in = books.carried_in;
+  report.outside.surface_tension = books.surface_tension;
+  report.left_to_particles = books.left_to_particles;
 }
 
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
@@ -146,7 +162,12 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.fluid.implicit_impulse = to_fine.impulses().implicit_part;
     if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
     done.negative_cells = to_fine.spread().negative_cells;
-    if (replaces) done.replacement = replacement;
+    enter_books(flow, done.fluid);
+    if (replaces) {
+      done.replacement = replacement;
+      done.fluid.replaced_liquid = replacement.liquid();
+      done.fluid.replacement_impulse = replacement.impulse;
+    }
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.relaxation = bridge.relaxed().smallest;
     done.relaxed_cells = bridge.relaxed().cells;
@@ -175,6 +196,7 @@ RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& rec
     }
     RunRecord::Window done;
     done.number = n;
+    enter_books(flow, done.fluid);
     done.seconds = seconds;
     record.window(flow, done, flow.time.endTime().value());
     go_on = !Foam::returnReduce(stop_requested(), Foam::orOp<bool>());

@@ -102,7 +102,7 @@ RunRecord::~RunRecord() = default;
 void RunRecord::start(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = fluid_quantities(flow);
   books_.emplace(parameters_.coupling.exchange, parameters_.coupling.schedule,
-                 particles ? particles->momentum : Vec3{},
+                 particles ? particles->momentum : Vec3{}, fluid_momentum(flow),
                  Books::State{{}, {}, quantities.at("liquid_volume")});
   initial_potential_ = quantities.at("potential_energy");
   open_history(flow, {});
@@ -120,7 +120,7 @@ void RunRecord::open_history(const Flow& flow, std::optional<double> continued_f
 
 void RunRecord::go_on(const Flow& flow, const ParticleReport& particles, long windows, const json& books) {
   books_.emplace(
-      parameters_.coupling.exchange, parameters_.coupling.schedule, particles.momentum,
+      parameters_.coupling.exchange, parameters_.coupling.schedule, particles.momentum, fluid_momentum(flow),
       Books::State{vec3(books.at("pending")), vec3(books.at("unplaced")), books.at("liquid_volume")});
   initial_potential_ = books.at("initial_potential");
   next_row_ = books.at("next_row");
@@ -166,7 +166,6 @@ void RunRecord::enter(RunResults& results, const ParticleReport& particles) {
 }
 
 void RunRecord::window(const Flow& flow, const Window& window, double end_time) {
-  const double liquid = liquid_volume(flow);
   const bool crosses =
       parameters_.coupling.phase_interchange == PhaseInterchange::none && solid_at_interface(flow);
   const long cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
@@ -194,21 +193,19 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
     }
-    FluidReport fluid = window.fluid;
-    fluid.liquid_volume = liquid;
     if (window.replacement) {
       const ReplacementBooks& books = *window.replacement;
-      fluid.replaced_liquid = books.liquid();
       results.replacement = {books.became_liquid,      books.took_place_back,    books.liquid_in,
                              books.liquid_out,         books.worst_volume_error, books.impulse,
                              books.worst_impulse_error};
     }
     if (window.particles)
-      books_->window(fluid, *window.particles);
+      books_->window(window.fluid, *window.particles);
     else
-      books_->window(fluid);
+      books_->window(window.fluid);
     const ConservationErrors& worst = books_->worst();
     results.conservation = {worst.exchange, worst.momentum, worst.solid_volume, worst.liquid_volume};
+    if (window.particles && !flow.ghost) results.momentum = books_->momentum();
     if (window.replacement) limits_.drop_resolution = window.replacement->worst_resolution;
     limits_.crossing_windows += crosses;
   }

@@ -28,7 +28,7 @@ def main():
     checks.at_most("solid volume, bulk grid against beads, worst window", run.number("conservation.solid_volume"), 1e-11)
     checks.at_most("exchange, worst window", run.number("conservation.exchange"), 1e-11)
     checks.at_most("momentum of the particles, worst window", run.number("conservation.momentum"), 1e-10)
-    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-5)
+    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-11)
     diameter = 0.004 if expected <= 3000 else 0.004 * (3000 / expected)**(1 / 3)
     mass = expected * DENSITY * math.pi / 6 * diameter**3
     checks.near("momentum, of the free fall", run.number("quantities.particle_momentum_z"),

@@ -36,7 +36,7 @@ def main():
         checks.at_most("momentum of the beads, worst window", run.number("conservation.momentum"), 1e-10)
     checks.at_most("exchange, worst window", run.number("conservation.exchange"), 1e-12)
     checks.at_most("solid volume, bulk grid against beads, worst window", run.number("conservation.solid_volume"), 1e-12)
-    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-5)
+    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-11)
     levels = run.history.get("mean_level", numpy.zeros(0))
     if len(levels) and present:
         expected = LEVEL + present * volume / FLOOR

@@ -53,7 +53,7 @@ def main():
     checks.equal("beads lost", run.number("particles.lost"), 0)
     checks.at_most("exchange, worst window", run.number("conservation.exchange"), 1e-12)
     checks.at_most("momentum of the bead, worst window", run.number("conservation.momentum"), 1e-12)
-    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-9)
+    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-11)
     if "falling" in run.setting("particles.script", ""):
         (time, speed), (found_time, found_speed) = fall(IN_AIR), fall_of(run, IN_AIR)
         checks.near("0.02 m above the water: time", found_time, time, 0.005, "s")

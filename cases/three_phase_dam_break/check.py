@@ -24,7 +24,7 @@ def conservation(run, checks):
     checks.equal("beads lost", run.number("particles.lost"), 0)
     checks.at_most("solid volume, bulk grid against beads, worst window", run.number("conservation.solid_volume"), 1e-12)
     checks.at_most("exchange, worst window", run.number("conservation.exchange"), 1e-12)
-    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-5)
+    checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-11)
 
 
 def energy(run, checks):
@@ -75,7 +75,7 @@ def main():
         energy(run, checks)
         speed(run, checks)
     else:
-        checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-5)
+        checks.at_most("liquid volume, drift", run.number("conservation.liquid_volume"), 1e-11)
         speed(run, checks)
         front(run, checks)
     return checks.exit_code()

@@ -3,9 +3,11 @@
 
 // Makes a ledger's entry (ledger.hpp) of what the two sides report about a window.
 
+#include <algorithm>
 #include <optional>
 
 #include "coupler/exchange/ledger.hpp"
+#include "coupler/exchange/momentum_books.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/exchange/particle_report.hpp"
 
@@ -16,7 +18,12 @@ struct FluidReport {
   Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
   std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
   double liquid_volume = 0;                 // at the end of the window, m3
+  double liquid_in = 0;                     // through the boundary in the window, m3
   double replaced_liquid = 0;               // in place of particles since the start of the run, m3
+  Vec3 replacement_impulse;                 // that came with it since then, N s
+  Vec3 momentum;                            // at the end of the window, kg m/s
+  OutsideImpulses outside;                  // those that the fluid side sees
+  Vec3 left_to_particles;                   // what the fluid's pressure does to their share, N s
 };
 
 class Books {
@@ -27,12 +34,14 @@ class Books {
     Vec3 unplaced;             // of this, what found no particle at all
     double liquid_volume = 0;  // what there should be, m3
   };
-  Books(ExchangeScheme scheme, Schedule schedule, const Vec3& particle_momentum, const State& state)
+  Books(ExchangeScheme scheme, Schedule schedule, const Vec3& particle_momentum, const Vec3& fluid_momentum,
+        const State& state)
       : scheme_(scheme),
         schedule_(schedule),
         pending_(state.pending),
         unplaced_(state.unplaced),
-        ledger_(particle_momentum, {}, state.liquid_volume, state.pending) {}
+        ledger_(particle_momentum, {}, state.liquid_volume, state.pending),
+        momentum_(particle_momentum + fluid_momentum + state.pending) {}
   State state() const { return {pending_, unplaced_, ledger_.liquid_volume()}; }
 
   /// Enters a window of a run without particles.
@@ -67,6 +76,10 @@ class Books {
                        particles.stress_impulse + particles.constant_impulse + particles.contact_impulse +
                        particles.gravity_impulse - particles.held_impulse + (balance.pending - pending_);
     pending_ = balance.pending;
+    for (const Vec3& impulse : {particles.drag_impulse, particles.pressure_impulse, particles.gravity_impulse,
+                                particles.contact_impulse, particles.held_impulse})
+      balance.gross_impulse = std::max(balance.gross_impulse, norm(impulse));
+    close_momentum(fluid, particles, balance.particles_changed);
     balance.bulk_solid_volume = particles.solid_volume_bulk;
     balance.particle_volume = particles.solid_volume - particles.replaced_volume;
     // With the concurrent schedule the mesh has the particles of the window before.
@@ -77,14 +90,28 @@ class Books {
 
   /// Largest of each error so far.
   const ConservationErrors& worst() const { return ledger_.worst(); }
+  /// Of everything, since the start.
+  const MomentumBooks& momentum() const { return momentum_; }
   const Vec3& pending() const { return pending_; }
   /// Impulse that went with particles in the windows in which they left, N s.
   double gone_impulse() const { return gone_impulse_; }
 
  private:
+  void close_momentum(const FluidReport& fluid, const ParticleReport& particles, bool changed) {
+    OutsideImpulses outside = fluid.outside;
+    outside.replacement = fluid.replacement_impulse - replacement_impulse_;
+    replacement_impulse_ = fluid.replacement_impulse;
+    outside.particle_weight = particles.gravity_impulse;
+    outside.contacts = particles.contact_impulse;
+    outside.held = -particles.held_impulse;
+    outside.stress = particles.stress_impulse;
+    outside.constant = particles.constant_impulse;
+    outside.pressure_lag = particles.pressure_impulse - fluid.left_to_particles;
+    momentum_.close(fluid.momentum + particles.momentum + pending_, outside, changed);
+  }
   void enter(const FluidReport& fluid, WindowBalance balance) {
     balance.liquid_volume = fluid.liquid_volume;
-    balance.liquid_in = fluid.replaced_liquid - replaced_liquid_;
+    balance.liquid_in = fluid.liquid_in + fluid.replaced_liquid - replaced_liquid_;
     replaced_liquid_ = fluid.replaced_liquid;
     ledger_.close(balance);
   }
@@ -94,8 +121,10 @@ class Books {
   Vec3 pending_, unplaced_;
   double came_ = 0, gone_ = 0;  // particles inserted; left and lost; up to the last window
   double replaced_liquid_ = 0;  // m3
+  Vec3 replacement_impulse_;
   double gone_impulse_ = 0;
   Ledger ledger_;
+  MomentumBooks momentum_;
 };
 
 }  // namespace demvof

@@ -40,17 +40,19 @@ struct WindowBalance {
                         // impulses of opposite sign cancel in the sum; 0 when not known
   Vec3 particle_momentum, fluid_momentum;             // m_s, m_f at the end of the window
   Vec3 external;                                      // I of the window
+  double gross_impulse = 0;                           // largest of its parts, N s
   bool particles_changed = false;                     // some came or went, with momentum of their own
   double bulk_solid_volume = 0, particle_volume = 0;  // at the end of the window, m3
   std::optional<double> fine_solid_volume;            // on the fine mesh, where it is put there, m3
   double liquid_volume = 0;                           // at the end of the window, m3
-  double liquid_in = 0;                               // came in through the boundary in the window, m3
+  double liquid_in = 0;  // came in through the boundary or replaced particles in the window, m3
 };
 
 /// Relative errors, -.
 struct ConservationErrors {
-  double exchange = 0;       // |sum| / (largest of |J|, |L|, |F_e + F_i|, |P_n|, |P_n+1|, turnover)
-  double momentum = 0;       // |drift from the start| / (largest |m_s| + |m_f|, or |sum of I|, up to now)
+  double exchange = 0;  // |sum| / (largest of |J|, |L|, |F_e + F_i|, |P_n|, |P_n+1|, turnover)
+  double momentum = 0;  // |drift from the start| / (largest |m_s| + |m_f|, or |sum of I|, up to now, or sum
+                        // of the largest parts of I: a bed at rest is judged by its weight)
   double solid_volume = 0;   // larger of |bulk - particles|, |fine - particles| / particles
   double liquid_volume = 0;  // |drift from the start| / (start + sum of what came in)
 };
@@ -79,8 +81,9 @@ class Ledger {
     external_ += window.external;
     const Vec3 drift =
         window.particle_momentum + window.fluid_momentum + pending_ - external_ - start_momentum_;
-    momentum_scale_ = std::max(
-        {momentum_scale_, norm(window.particle_momentum) + norm(window.fluid_momentum), norm(external_)});
+    gross_impulse_ += window.gross_impulse;
+    momentum_scale_ = std::max({momentum_scale_, norm(window.particle_momentum) + norm(window.fluid_momentum),
+                                norm(external_), gross_impulse_});
     if (window.particles_changed)
       start_momentum_ += drift;  // what they brought or took
     else
@@ -114,8 +117,9 @@ class Ledger {
   }
 
   Vec3 start_momentum_, external_, pending_;
-  double momentum_scale_;  // kg m/s
-  double liquid_;          // what there should be, m3
+  double momentum_scale_;     // kg m/s
+  double gross_impulse_ = 0;  // N s
+  double liquid_;             // what there should be, m3
   ConservationErrors worst_;
 };
 

@@ -39,6 +39,19 @@ Json scene(const std::vector<Decision>& decisions) {
   return list;
 }
 
+Json array(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json momentum(const MomentumBooks& books) {
+  Json impulses = Json::object();
+  for (const auto& [part, member] : OutsideImpulses::parts) impulses[part] = array(books.impulses().*member);
+  return {{"error", array(books.worst())},
+          {"windows", books.windows()},
+          {"windows_judged", books.judged()},
+          {"impulses", impulses}};
+}
+
 }  // namespace
 
 std::string results_json(const RunResults& r) {
@@ -82,17 +95,15 @@ std::string results_json(const RunResults& r) {
                           {"momentum", r.conservation.momentum},
                           {"solid_volume", r.conservation.solid_volume},
                           {"liquid_volume", r.conservation.liquid_volume}};
+  if (r.momentum) json["momentum"] = momentum(*r.momentum);
   json["closures"] = Json::object();
   for (const auto& [closure, evaluations, outside] : r.closures)
     json["closures"][closure] = {{"evaluations", evaluations}, {"outside_range", outside}};
   if (r.replacement)
     json["replacement"] = {
-        {"became_liquid", r.replacement->became_liquid},
-        {"took_place_back", r.replacement->took_place_back},
-        {"liquid_in", r.replacement->liquid_in},
-        {"liquid_out", r.replacement->liquid_out},
-        {"volume_error", r.replacement->volume_error},
-        {"impulse", {r.replacement->impulse.x, r.replacement->impulse.y, r.replacement->impulse.z}},
+        {"became_liquid", r.replacement->became_liquid}, {"took_place_back", r.replacement->took_place_back},
+        {"liquid_in", r.replacement->liquid_in},         {"liquid_out", r.replacement->liquid_out},
+        {"volume_error", r.replacement->volume_error},   {"impulse", array(r.replacement->impulse)},
         {"impulse_error", r.replacement->impulse_error}};
   json["scene"] = scene(r.scene);
   json["quantities"] = Json::object();

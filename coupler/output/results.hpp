@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupler/exchange/momentum_books.hpp"
 #include "coupler/scene/scene.hpp"
 
 namespace demvof {
@@ -69,6 +70,7 @@ struct RunResults {
     double solid_volume = 0;   // bulk grid against the particles' volume, worst window
     double liquid_volume = 0;  // drift against the start, worst window
   } conservation;              // relative, -
+  std::optional<MomentumBooks> momentum;  // of everything, with particles
 
   struct ClosureUse {
     std::string name;

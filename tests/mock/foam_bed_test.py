@@ -38,13 +38,17 @@ class Bed(unittest.TestCase):
         settings = [word for word in options if word != "--continue"]
         done = subprocess.run(
             [MPIRUN, "--timeout", "100", "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,
-             ":", "-np", str(ranks[1]), MOCK, str(self.case_file), "--bed", *map(str, BED),
+             ":", "-np", str(ranks[1]), MOCK, str(self.case_file), *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
              "--solid-fraction", str(FRACTION), *map(str, bed), *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)
         run = Run(out)
         for quantity in ("exchange", "momentum", "solid_volume", "liquid_volume"):
             self.assertLess(run.results["conservation"][quantity], 1e-11, quantity)
+        momentum = run.results["momentum"]
+        print(f"{self._testMethodName}, {name}: momentum error {momentum['error']}, "
+              f"lag {momentum['impulses']['pressure_lag']}")
+        self.assertEqual(momentum["windows"], momentum["windows_judged"])
         return run
 
     def compare(self, a, b, bound):
@@ -77,6 +81,25 @@ class Bed(unittest.TestCase):
 
     def test_stream_concurrent(self):
         self.stream("concurrent")
+
+    def test_entering_bed_pushes_liquid_out(self):
+        """Liquid that the books see leave is that which the bed displaces."""
+        sides = {side: Slip() if side[0] != "z" else Wall() for side in SIDES}
+        sides["z+"] = Open(alpha=1)
+        self.case(sides=sides)
+        run = self.run_bed("run", bed=("--velocity", 0.5, "--bed", -0.04, 0.013))
+        liquid = run.history["liquid_volume"]
+        pushed_out = FRACTION * 0.5 * 10 * WINDOW * 0.02**2
+        self.assertLess(abs((liquid[0] - liquid[-1]) / pushed_out - 1), 1e-9)
+
+    def test_still_bed_under_water(self):
+        """Weights, the pressure of the floor and the force that holds the bed: nothing moves, and all is balanced."""
+        sides = {side: Slip() if side[0] != "z" else Wall() for side in SIDES}
+        sides["z+"] = Open()
+        self.case(sides=sides, gravity=(0, 0, -9.81), level=0.07)
+        run = self.run_bed("run", bed=("--drag", 2e5, "--gravity", 0, 0, -9.81))
+        for error in run.results["momentum"]["error"]:
+            self.assertLess(error, 1e-8)
 
     def test_rising_bed_goes_on(self):
         """A bed that rises through the surface of water; the run that stops and goes on is the one that does not."""

@@ -49,6 +49,8 @@ FAULTS = [
      "window.drag_to_particles + to_fluid", EXCHANGE),
     ("coupler/exchange/books.hpp", "balance.pending = unplaced_ - fluid.implicit_impulse",
      "balance.pending = -fluid.implicit_impulse", EXCHANGE),
+    ("coupler/exchange/books.hpp", "outside.held = -particles.held_impulse",
+     "outside.held = particles.held_impulse", EXCHANGE),
     ("coupler/exchange/support.hpp", "counts_as_held * norm(cell.contact) / asked",
      "counts_as_held * asked / norm(cell.contact)", FORCES),
     # ---- transfer
@@ -92,6 +94,9 @@ FAULTS = [
     # ---- between fine mesh and bulk grid
     ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
      "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", BED),
+    ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
+    ("foam_side/fluid_books.cpp", "(1 - (*eps)[cell]) * volume[cell] * gradient[cell]",
+     "(*eps)[cell] * volume[cell] * gradient[cell]", BED),
     ("foam_side/porosity.cpp", "eps - porosity.goal.field()", "eps - porosity.eps.primitiveField()", BED),
-    ("foam_side/crowding.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
+    ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
 ]

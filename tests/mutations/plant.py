@@ -22,7 +22,9 @@ ENOUGH = 0.9
 
 
 def stale(faults):
-    return [(file, text) for file, text, _, _ in faults if (ROOT / file).read_text().count(text) != 1]
+    def count(file, text):
+        return (ROOT / file).read_text().count(text) if (ROOT / file).exists() else 0
+    return [(file, text) for file, text, _, _ in faults if count(file, text) != 1]
 
 
 def run(*command):

@@ -35,7 +35,7 @@ Reports reports(const Vec3& drag, const Vec3& left_over, const Vec3& implicit, c
 }
 
 Books staggered() {
-  return {ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {{}, {}, liquid}};
+  return {ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {}, {{}, {}, liquid}};
 }
 
 TEST(Books, TwoWindowsThatClose) {
@@ -76,7 +76,7 @@ TEST(Books, EachImpulseCounts) {
 }
 
 TEST(Books, ConcurrentDragIsPendingForAWindow) {
-  Books books(ExchangeScheme::conservative_implicit, Schedule::concurrent, {}, {{}, {}, liquid});
+  Books books(ExchangeScheme::conservative_implicit, Schedule::concurrent, {}, {}, {{}, {}, liquid});
   Reports first = reports({1, 2, 3}, {}, {}, {});
   first.fluid.explicit_impulse = {};
   books.window(first.fluid, first.particles);
@@ -103,7 +103,7 @@ TEST(Books, GoOnFromTheirState) {
   Books books = staggered();
   Reports first = reports({1, 2, 3}, {}, {0.25, 0, -1}, {});
   books.window(first.fluid, first.particles);
-  Books later(ExchangeScheme::conservative_implicit, Schedule::staggered, first.particles.momentum,
+  Books later(ExchangeScheme::conservative_implicit, Schedule::staggered, first.particles.momentum, {},
               books.state());
   Reports second = reports({-1, 0, 1}, {-0.25, 0, 1}, {}, first.particles.momentum);
   later.window(second.fluid, second.particles);
@@ -122,6 +122,50 @@ TEST(Books, ReplacedParticlesAreLiquid) {
   books.window(r.fluid, r.particles);
   EXPECT_LT(books.worst().solid_volume, 1e-15);
   EXPECT_LT(books.worst().liquid_volume, 1e-15);
+}
+
+/// Fluid and particles together: what the fluid's pressure leaves to the particles is what they get.
+TEST(Books, MomentumOfEverything) {
+  Books books(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid});
+  Reports r = reports({1, 2, 3}, {}, {0.25, 0, -1}, {});
+  OutsideImpulses& outside = r.fluid.outside;
+  outside.fluid_weight = {0, 0, -16};
+  outside.boundary_pressure = {0, 1, 19};
+  outside.boundary_shear = {-0.5, 0, 0};
+  outside.carried_in = {0, 0, 0.5};
+  outside.surface_tension = {0, 0.25, 0};
+  r.fluid.left_to_particles = r.particles.pressure_impulse + Vec3{0, 0, 0.5};  // the particles got too little
+  r.fluid.momentum = Vec3{1, 0, 0} + r.fluid.explicit_impulse + r.fluid.implicit_impulse +
+                     outside.fluid_weight + outside.boundary_pressure - r.fluid.left_to_particles +
+                     outside.boundary_shear + outside.carried_in + outside.surface_tension;
+  books.window(r.fluid, r.particles);
+  EXPECT_LT(norm(books.momentum().worst()), 1e-15);
+  EXPECT_EQ(books.momentum().impulses().pressure_lag.z, -0.5);
+  EXPECT_EQ(books.momentum().judged(), 1);
+
+  r.fluid.momentum += {0, 2, 0};  // from nowhere
+  Books faulty(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid});
+  faulty.window(r.fluid, r.particles);
+  EXPECT_NEAR(faulty.momentum().worst().y, 2 / norm(outside.boundary_pressure), 1e-15);
+  EXPECT_LT(faulty.momentum().worst().z, 1e-15);
+}
+
+TEST(Books, WindowsInWhichParticlesComeAreCountedAsNotJudged) {
+  Books books = staggered();
+  Reports r = reports({1, 2, 3}, {}, {}, {});
+  r.particles.inserted = 1;
+  books.window(r.fluid, r.particles);
+  EXPECT_EQ(books.momentum().windows(), 1);
+  EXPECT_EQ(books.momentum().judged(), 0);
+}
+
+TEST(Books, LiquidThatFlowsOutIsNotLost) {
+  Books books = staggered();
+  FluidReport fluid;
+  fluid.liquid_volume = liquid * 0.5;
+  fluid.liquid_in = -liquid * 0.5;
+  books.window(fluid);
+  EXPECT_EQ(books.worst().liquid_volume, 0);
 }
 
 TEST(Books, WithoutParticlesLiquidIsKept) {

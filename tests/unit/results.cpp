@@ -113,6 +113,23 @@ TEST(Results, NumbersThatAreNotFiniteStayReadable) {
   EXPECT_TRUE(parsed(results)["conservation"]["momentum"].is_null());
 }
 
+TEST(Results, HaveTheMomentumOfEverythingWithParticles) {
+  RunResults results;
+  EXPECT_FALSE(parsed(results).contains("momentum"));
+  results.momentum.emplace(Vec3{1, 0, 0});
+  OutsideImpulses impulses;
+  impulses.boundary_pressure = {0, 0, 2};
+  results.momentum->close({1, 0.5, 2}, impulses, false);
+  results.momentum->close({2, 0, 2}, {}, true);
+  const Json momentum = parsed(results)["momentum"];
+  EXPECT_NEAR(momentum["error"][1], 0.5 / std::sqrt(5.25), 1e-15);
+  EXPECT_EQ(momentum["error"][0], 0);
+  EXPECT_EQ(momentum["windows"], 2);
+  EXPECT_EQ(momentum["windows_judged"], 1);
+  EXPECT_EQ(momentum["impulses"]["boundary_pressure"][2], 2);
+  EXPECT_EQ(momentum["impulses"].size(), OutsideImpulses::parts.size());
+}
+
 TEST(Results, HaveReplacementsOnlyWhereTheSceneHasThem) {
   RunResults results;
   results.configuration = "{}";

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Integrals of the step that has just been done, as the momentum and the alpha equation have them:
+//
+//   liquid in         -sum of dt phi_liquid                        over boundary faces
+//   weight             sum of dt eps rho V g                       over cells
+//   pressure          -sum of dt p S                               over boundary faces, p total
+//   shear              sum of dt eps mu_eff |S| d(u)/dn            over boundary faces
+//   carried in        -sum of dt rho_phi u                         over boundary faces
+//   surface tension    sum of dt eps V sigma kappa grad alpha      over cells
+//   left to particles -sum of dt (1 - eps) V grad p                over cells, grad p as particles are told
+//   it
+//
+// On meshes of equal hexahedra the cells' pressure gradients add up to the boundary's pressure exactly.
+
+#include "foam_side/fluid_books.hpp"
+
+#include <utility>
+
+#include "foam_side/flow.hpp"
+#include "foam_side/vectors.hpp"
+
+namespace demvof {
+namespace {
+
+class RegisteredBooks : public Foam::regIOobject {
+ public:
+  explicit RegisteredBooks(const Foam::fvMesh& mesh)
+      : regIOobject(Foam::IOobject("fluidBooks", mesh.time().timeName(), mesh, Foam::IOobject::NO_READ,
+                                   Foam::IOobject::NO_WRITE)) {}
+  bool writeData(Foam::Ostream&) const override { return true; }
+  FluidBooks books;
+};
+
+FluidBooks& books_of(const Flow& flow) {
+  const Foam::objectRegistry& registry = flow.mesh.thisDb();
+  if (!registry.foundObject<RegisteredBooks>("fluidBooks"))
+    Foam::regIOobject::store(new RegisteredBooks(flow.mesh));
+  return registry.lookupObjectRef<RegisteredBooks>("fluidBooks").books;
+}
+
+/// Faces that are the end of the fluid, not a cut.
+template <class Entry>
+void for_each_boundary_face(const Foam::fvMesh& mesh, const Entry& enter) {
+  forAll(mesh.boundary(), patch) {
+    if (mesh.boundary()[patch].coupled()) continue;
+    forAll(mesh.Sf().boundaryField()[patch], face) enter(patch, face);
+  }
+}
+
+void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
+  const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
+  vector pressure = vector::zero, shear = vector::zero, carried = vector::zero;
+  forAll(flow.mesh.boundary(), patch) {
+    if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
+    const Foam::vectorField& S = flow.mesh.Sf().boundaryField()[patch];
+    const scalarField& area = flow.mesh.magSf().boundaryField()[patch];
+    const Foam::vectorField slope(flow.U.boundaryField()[patch].snGrad());
+    forAll(S, face) {
+      const scalar eps = flow.porosity ? flow.porosity->eps.boundaryField()[patch][face] : 1.0;
+      const scalar mu = flow.rho.boundaryField()[patch][face] * viscosity().boundaryField()[patch][face];
+      pressure -= flow.p.boundaryField()[patch][face] * S[face];
+      shear += eps * mu * area[face] * slope[face];
+      carried -= flow.rho_phi.boundaryField()[patch][face] * flow.U.boundaryField()[patch][face];
+    }
+  }
+  books.boundary_pressure += dt * to_vec3(pressure);
+  books.boundary_shear += dt * to_vec3(shear);
+  books.carried_in += dt * to_vec3(carried);
+}
+
+void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
+  const scalarField& volume = flow.mesh.V().field();
+  const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
+  double mass = 0;
+  forAll(volume, cell) mass += (eps ? (*eps)[cell] : 1.0) * flow.rho[cell] * volume[cell];
+  books.weight += dt * mass * to_vec3(flow.g.value());
+
+  vector left = vector::zero, tension = vector::zero;
+  if (eps) {
+    const Foam::vectorField gradient = pressure_gradient(flow);
+    forAll(volume, cell) left -= (1 - (*eps)[cell]) * volume[cell] * gradient[cell];
+  }
+  if (flow.scene.surface_tension) {
+    const surfaceScalarField pull(flow.mixture.surfaceTensionForce() * flow.mesh.magSf());
+    const Foam::vectorField force = (*flow.reconstruct)([&](const auto& at, label) { return at(pull); });
+    forAll(volume, cell) tension += (eps ? (*eps)[cell] : 1.0) * volume[cell] * force[cell];
+  }
+  books.left_to_particles += dt * to_vec3(left);
+  books.surface_tension += dt * to_vec3(tension);
+}
+
+}  // namespace
+
+void note_liquid_flux(Flow& flow, const surfaceScalarField& flux) {
+  double inflow = 0;
+  for_each_boundary_face(flow.mesh,
+                         [&](label patch, label face) { inflow -= flux.boundaryField()[patch][face]; });
+  books_of(flow).liquid_inflow = inflow;
+}
+
+void keep_books(Flow& flow) {
+  const double dt = flow.time.deltaTValue();
+  FluidBooks& books = books_of(flow);
+  books.liquid_in += dt * books.liquid_inflow;
+  if (!flow.source) return;
+  enter_boundary(flow, dt, books);
+  enter_cells(flow, dt, books);
+}
+
+FluidBooks take_books(Flow& flow) {
+  FluidBooks taken = std::exchange(books_of(flow), FluidBooks{});
+  Foam::reduce(taken.liquid_in, Foam::sumOp<double>());
+  for (Vec3* part : {&taken.weight, &taken.boundary_pressure, &taken.boundary_shear, &taken.carried_in,
+                     &taken.surface_tension, &taken.left_to_particles})
+    *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
+  return taken;
+}
+
+}  // namespace demvof

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "coupler/base/vec3.hpp"
+#include "foam_side/openfoam.hpp"
+
+namespace demvof {
+
+struct Flow;
+
+/// What came to the fluid from outside; this rank's part. Impulses only in runs with particles. It stands in
+/// the mesh's registry, where the stages of a step find it.
+struct FluidBooks {
+  double liquid_inflow = 0;  // through the boundary in the present step, m3/s
+  double liquid_in = 0;      // m3
+  Vec3 weight;               // N s, as the rest
+  Vec3 boundary_pressure;    // total pressure: on the fluid, and through it on the particles
+  Vec3 boundary_shear;       // viscous
+  Vec3 carried_in;           // momentum of what flows through the boundary
+  Vec3 surface_tension;      // sum over the cells
+  Vec3 left_to_particles;  // what the pressure does to the particles' share of the cells, -(1 - eps) V grad p
+};
+
+/// Notes what of the liquid's flux in this step (m3/s) comes in through the boundary.
+void note_liquid_flux(Flow& flow, const surfaceScalarField& flux);
+
+/// Enters the step that has just been done.
+void keep_books(Flow& flow);
+
+/// What was entered since the last call, over all ranks. Collective.
+FluidBooks take_books(Flow& flow);
+
+}  // namespace demvof
