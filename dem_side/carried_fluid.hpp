@@ -5,6 +5,7 @@
 
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
+#include "coupler/closures/size_mix.hpp"
 #include "coupler/transfer/bulk_surface.hpp"
 
 // What a particle carries through a window, from rank to rank: what it feels and what it received. LIGGGHTS
@@ -19,6 +20,7 @@ struct CarriedFluid {
   double density = 0;        // rho, kg/m3; 0: this fluid is not here
   double viscosity = 0;      // mu, Pa s
   double void_fraction = 1;  // eps, -
+  SizeMix sizes;             // of the particles around it
   Vec3 pressure_force;       // N
   Vec3 left_over_force;      // N
   // Received in this window:

@@ -103,6 +103,7 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
   for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
     const std::string_view style = fix.style;
     if (style == "nve/sphere" || style == "nve") integrated_ |= fix.groupbit;
+    if (style == "nve/sphere") turned_ |= fix.groupbit;
     if (style == "freeze") frozen_ |= fix.groupbit;
     if (style == "gravity") weighed_ |= fix.groupbit;
   });
@@ -177,7 +178,8 @@ long Dem::step() const {
 
 ParticleArrays Dem::particles() const {
   const LAMMPS_NS::Atom& atom = *liggghts_->atom;
-  return {atom.nlocal, atom.x, atom.v, atom.f, atom.radius, atom.rmass, atom.tag, atom.mask};
+  return {atom.nlocal, atom.x,      atom.v,     atom.f,   atom.omega,
+          atom.torque, atom.radius, atom.rmass, atom.tag, atom.mask};
 }
 
 double Dem::time_step() const {

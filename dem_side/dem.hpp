@@ -78,6 +78,8 @@ class Dem {
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
   /// that are frozen, moved by prescription or not integrated at all.
   bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
+  /// True when it turns such a particle by the torque on it.
+  bool turns(int mask) const { return (mask & turned_) && !(mask & frozen_); }
   /// True when fix gravity acts on a particle with this mask.
   bool has_weight(int mask) const { return mask & weighed_; }
 
@@ -98,8 +100,10 @@ class Dem {
   void add_particle_rows(const std::string& name, int width);
   double* const* particle_rows(const std::string& name) const;
 
-  /// Calls add_forces in every DEM step, after all other forces are known; external: local particle
-  /// -> force to add, N, to be set for every particle. Called in set_up() too.
+  /// Calls add_forces in every DEM step, after all other forces and torques are known; external: local
+  /// particle
+  /// -> force to add, N, to be set for every particle. A torque is added to particles.torque. Called in
+  /// set_up() too.
   using AddForces = std::function<void(const ParticleArrays& particles, double* const* external)>;
   void attach(AddForces add_forces);
   /// What the last step's call has added to each local particle, N.
@@ -118,7 +122,7 @@ class Dem {
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
   bool continued_;
-  int integrated_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
+  int integrated_ = 0, turned_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
 };
 
 }  // namespace demvof

@@ -7,45 +7,14 @@
 #include <type_traits>
 
 #include "coupler/base/errors.hpp"
-#include "coupler/closures/drag.hpp"
 #include "coupler/closures/lift.hpp"
-#include "coupler/closures/own_wake.hpp"
+#include "coupler/closures/spin_lift.hpp"
 #include "coupler/config/enum_names.hpp"
+#include "dem_side/drag_closures.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
 namespace {
-
-// A law as the particle loop has it: inlined, chosen once.
-using DragFunction = double(double diameter, double density, double viscosity, double slip, double eps);
-template <DragFunction* law>
-struct DragClosure {
-  DragRange range;
-  double factor(const CarriedFluid& fluid, double diameter, double slip, ClosureCount& count) const {
-    const double eps = fluid.void_fraction;
-    const double reynolds = superficial_reynolds(diameter, fluid.density, fluid.viscosity, slip, eps);
-    ++count.evaluations;
-    count.outside += !range.contains(reynolds, eps);
-    return law(diameter, fluid.density, fluid.viscosity, slip, eps);
-  }
-};
-struct NoDrag {
-  double factor(const CarriedFluid&, double, double, ClosureCount&) const { return 0; }
-};
-
-// Drag factor for the slip that is seen when the drag follows the slip without the particle's own wake, which
-// is slip / (1 - psi); psi at that slip, which one repetition finds.
-template <class Drag>
-double without_own_wake(const Drag& law, const CarriedFluid& fluid, double diameter, double slip,
-                        double width, ClosureCount& count) {
-  const auto ratio = [&](double beta, double true_slip) {
-    return 1 / (1 - own_wake_share(beta, fluid.density, fluid.viscosity, true_slip, width));
-  };
-  ClosureCount first_guess;
-  const double true_slip = slip * ratio(law.factor(fluid, diameter, slip, first_guess), slip);
-  const double beta = law.factor(fluid, diameter, true_slip, count);
-  return beta * ratio(beta, true_slip);
-}
 
 // Relative change of the slip over which the drag's slope is taken.
 constexpr double tangent_step = 1e-3;
@@ -82,6 +51,8 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
   dem_.add_particle_rows(rows_name, row_width<CarriedRow>());
   if (need_gradients(parameters))
     dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradientsRow>());
+  if (parameters.torque) torque_.emplace(dem_);
+  if (parameters.history) history_.emplace(dem_);
   switch (parameters.drag) {
     case DragLaw::none:
       attach(NoDrag{});
@@ -99,7 +70,7 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
       attach(DragClosure<koch_hill>{koch_hill_range});
       break;
     case DragLaw::beetstra:
-      attach(DragClosure<beetstra>{beetstra_range});
+      attach(BeetstraOfSizes{});
       break;
     case DragLaw::rong:
       attach(DragClosure<rong>{rong_range});
@@ -193,7 +164,15 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   window_ = window;
   steps_ = 0;
   force_sums_ = {};
-  drag_count_ = lift_count_ = {};
+  drag_count_ = lift_count_ = spin_lift_count_ = {};
+  if (torque_) torque_->begin_window();
+  if (history_) history_->begin_window();
+}
+
+void FluidForces::tell_sizes(int k, const std::vector<SizeMix>& sizes) {
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    carried_by(rows, static_cast<int>(i)).fluid[k].sizes = sizes[i];
 }
 
 void FluidForces::see_surface(const std::vector<SeenSurface>& surface) {
@@ -225,6 +204,21 @@ Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradie
   return saffman_mei(diameter, fluid.density, fluid.viscosity, slip, gradients.vorticity);
 }
 
+Vec3 FluidForces::spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
+                            const Vec3& spin, const Vec3& slip) {
+  if (parameters_.spin_lift == SpinLiftLaw::none) return {};
+  const bool creeping = parameters_.spin_lift == SpinLiftLaw::rubinow_keller;
+  const SpinLiftRange& range = creeping ? rubinow_keller_range : oesterle_bui_dinh_range;
+  const Vec3 rotation = 0.5 * gradients.vorticity - spin;
+  const double speed = norm(slip);
+  const double reynolds = fluid.density * speed * diameter / fluid.viscosity;
+  const double over_slip = speed > 0 ? spin_over_slip(diameter, speed, norm(rotation)) : 0;
+  ++spin_lift_count_.evaluations;
+  spin_lift_count_.outside += !range.contains(reynolds, over_slip);
+  const double factor = creeping ? 1 : oesterle_bui_dinh(reynolds, over_slip);
+  return spin_lift_force(diameter, fluid.density, factor, rotation, slip);
+}
+
 template <bool with_gradients, class Drag>
 void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
   const Vec3 constant = parameters_.constant;
@@ -237,6 +231,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
+  if (history_) history_->begin_step();
   WindowImpulses sums;  // of this step alone: fewer numbers in one sum, less round-off
   for (int i = 0; i < particles.count; ++i) {
     CarriedRow& row = carried_by(rows, i);
@@ -253,13 +248,17 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       sums.constant += constant;
     }
     store(external[i], moves ? constant : Vec3{});
-    if (row.waits()) continue;
+    if (row.waits()) {
+      if (torque_) torque_->act(particles, i, {});
+      continue;
+    }
 
     const double wetted = move_surface(row.surface, velocity, radius, step);
     struct Part {  // in one fluid
       double beta = 0, added = 0;
       Vec3 slip, across;
     } parts[2];
+    FluidTorque::Grip grip;
     double beta = 0, added = 0;
     Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt
     for (int k = 0; k < 2; ++k) {
@@ -277,7 +276,16 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       if constexpr (with_gradients) {
         const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
         part.added = added_mass(row, k, radius);
-        part.across = share * lift(fluid, gradients, 2 * radius, part.slip);
+        part.across = share * (lift(fluid, gradients, 2 * radius, part.slip) +
+                               spin_lift(fluid, gradients, 2 * radius, vec3(particles.spin[i]), part.slip));
+        if (torque_)
+          torque_->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity, gradients.vorticity);
+        if (history_ && k == 0) {
+          const HistoryForce::Memory past =
+              history_->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
+          part.across += share * past.force;
+          part.added += share * past.inertia;
+        }
         steady += share * gradients.stress_force;
         sums.stress += share * gradients.stress_force;
         accelerated += part.added * gradients.acceleration;
@@ -289,6 +297,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       added += part.added;
       pull += part.beta * part.slip;
     }
+    if (torque_) torque_->act(particles, i, grip);
+    if (history_ && !row.feels(0)) history_->forget(i);
     Vec3 drag = pull, acceleration;
     if (moves) {
       const Vec3 others =
@@ -304,6 +314,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
       if constexpr (with_gradients) {
         CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
+        if (history_ && k == 0) history_->remember(i, gradients.acceleration - acceleration);
         const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
         gradients.other_impulse += step * other;
         of_fluid += other;
@@ -338,7 +349,15 @@ std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const 
   std::vector<std::pair<std::string, ClosureCount>> closures;
   if (parameters_.drag != DragLaw::none) closures.emplace_back(name_of(parameters_.drag), drag_count_);
   if (parameters_.lift != LiftLaw::none) closures.emplace_back(name_of(parameters_.lift), lift_count_);
+  if (parameters_.spin_lift != SpinLiftLaw::none)
+    closures.emplace_back(name_of(parameters_.spin_lift), spin_lift_count_);
+  if (torque_) closures.emplace_back("torque", torque_->count());
+  if (history_) closures.emplace_back("history", history_->count());
   return closures;
+}
+
+std::optional<SpinImpulses> FluidForces::spin_impulses() const {
+  return torque_ ? std::optional(torque_->impulses()) : std::nullopt;
 }
 
 WindowImpulses FluidForces::impulses() const {

@@ -7,12 +7,15 @@
 //   F_pressure = -V sum_k a_k grad p_k      grad p of the total pressure: buoyancy is inside it
 //   F_left     = M_i / window    impulse still owed from the exchange of the last window
 //   F_stress   = V (div tau + sigma kappa grad alpha), each part when it is named
-//   F_lift     = lift.hpp
+//   F_lift     = lift.hpp, and of a particle that spins spin_lift.hpp
 //   F_added    = sum_k m_ak (Du_k/Dt - dv/dt), m_ak = a_k C_m rho_k V, implicit with the drag
 //   F_entry    = (u_1 - v) dm_a/dt while the particle enters the liquid: what it takes along starts at the
 //                liquid's velocity. So (m + m_a) v is kept, v+/v- = (m + m_a-)/(m + m_a+)    (von Karman
 //                1929)
+//   F_history  = history.hpp, of the liquid or the only fluid; the present step's part as an added mass
 //   F_constant the case file's
+//
+// and a torque (fluid_torque.hpp).
 //
 // k: liquid, gas; a_k: share of the particle's volume that lies in it, of the sphere and the surface's plane
 // at its present place (coupler/transfer/bulk_surface.hpp); without a surface a_1 = 1. The parts in the two
@@ -40,12 +43,16 @@
 
 #include "coupler/base/sphere.hpp"
 #include "coupler/closures/force_parameters.hpp"
+#include "coupler/closures/size_mix.hpp"
 #include "coupler/exchange/support.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/fluid_at_particle.hpp"
 #include "coupler/transfer/wake_width.hpp"
 #include "dem_side/carried_fluid.hpp"
+#include "dem_side/closure_count.hpp"
 #include "dem_side/dem.hpp"
+#include "dem_side/fluid_torque.hpp"
+#include "dem_side/history_force.hpp"
 
 namespace demvof {
 
@@ -60,11 +67,6 @@ struct WindowImpulses {
   Vec3 drag, pressure, left_over, stress;  // on all particles; drag with lift and added mass
   Vec3 held;                               // the part of these that went to particles which no force moves
   Vec3 contact, gravity, constant;         // on the particles that forces move
-};
-
-/// How often a closure was evaluated, and how often outside the range it was fitted for.
-struct ClosureCount {
-  double evaluations = 0, outside = 0;
 };
 
 class FluidForces {
@@ -88,6 +90,9 @@ class FluidForces {
   void begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
     begin_window(FluidsAtParticles{{fluid, {}}, {}}, window);
   }
+  /// After that, for a drag law that asks for them (knows_sizes): the sizes in fluid k around each local
+  /// particle.
+  void tell_sizes(int k, const std::vector<SizeMix>& sizes);
 
   /// Sets what the surface makes of local particles that felt no fluid yet: at the start, and when they are
   /// new.
@@ -111,6 +116,8 @@ class FluidForces {
   WindowImpulses impulses() const;
   /// The closures in use by name, with their counts in this window on this rank.
   std::vector<std::pair<std::string, ClosureCount>> closures() const;
+  /// Of this window on this rank, when the fluid has a torque on the particles.
+  std::optional<SpinImpulses> spin_impulses() const;
   /// Local particles that feel no fluid: new ones, and those where there is none.
   long waiting_for_fluid() const;
   /// DEM steps done in this window.
@@ -124,6 +131,8 @@ class FluidForces {
   template <class Drag>
   double drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip);
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
+  Vec3 spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
+                 const Vec3& spin, const Vec3& slip);
   double mean_drag_factor(const CarriedFluid& fluid) const;
   double mean_drag_tangent(const CarriedFluid& fluid) const;
   double added_mass(const CarriedRow& row, int k, double radius) const {  // kg
@@ -138,7 +147,9 @@ class FluidForces {
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window
-  ClosureCount drag_count_, lift_count_;
+  ClosureCount drag_count_, lift_count_, spin_lift_count_;
+  std::optional<FluidTorque> torque_;
+  std::optional<HistoryForce> history_;
 };
 
 }  // namespace demvof

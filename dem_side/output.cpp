@@ -18,6 +18,7 @@ ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double w
     frame.id.push_back(particles.id[i]);
     frame.position.push_back(vec3(particles.position[i]));
     frame.velocity.push_back(vec3(particles.velocity[i]));
+    frame.spin.push_back(vec3(particles.spin[i]));
     frame.radius.push_back(particles.radius[i]);
     frame.drag_force.push_back(forces.drag_impulse(i) / window);
     frame.pressure_force.push_back(forces.pressure_force(i));

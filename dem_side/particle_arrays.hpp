@@ -11,13 +11,15 @@ namespace demvof {
 /// LIGGGHTS's own arrays of this rank's particles, not copied; valid until the next DEM step.
 struct ParticleArrays {
   int count = 0;
-  double* const* position = nullptr;  // m
-  double* const* velocity = nullptr;  // m/s, at the same time as the position
-  double* const* force = nullptr;     // N; during a step: what has been added up so far
-  const double* radius = nullptr;     // m
-  const double* mass = nullptr;       // kg
-  const int* id = nullptr;            // unique over all ranks
-  const int* mask = nullptr;          // LIGGGHTS group bits
+  double* const* position = nullptr;    // m
+  double* const* velocity = nullptr;    // m/s, at the same time as the position
+  double* const* force = nullptr;       // N; during a step: what has been added up so far
+  const double* const* spin = nullptr;  // rad/s, at the same time as the velocity
+  double* const* torque = nullptr;      // N m; as the force
+  const double* radius = nullptr;       // m
+  const double* mass = nullptr;         // kg
+  const int* id = nullptr;              // unique over all ranks
+  const int* mask = nullptr;            // LIGGGHTS group bits
 };
 
 inline Vec3 vec3(const double* components) {

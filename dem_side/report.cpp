@@ -140,6 +140,13 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
   report.waiting_seconds = seconds.waiting;
   report.peak_memory_bytes = sums.peak_memory_bytes;
   count_closures(forces, dem_.world(), report);
+  if (const auto own = forces.spin_impulses()) {
+    SpinImpulses all = *own;
+    reduce(&all.fluid.x, sizeof(all), MPI_SUM, dem_.world());
+    report.spin_momentum = half_step_spin(dem_);
+    report.torque_impulse = all.fluid;
+    report.contact_torque_impulse = all.contact;
+  }
   return report;
 }
 

@@ -24,6 +24,7 @@
 #include "dem_side/replacement.hpp"
 #include "dem_side/report.hpp"
 #include "dem_side/restart.hpp"
+#include "dem_side/size_mix.hpp"
 #include "dem_side/survivor.hpp"
 #include "dem_side/window_steps.hpp"
 
@@ -168,6 +169,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
         felt.surface = surface_at_particles();
       }
       forces.begin_window(felt, coupling.window);
+      for (int k = 0; k < plan.fluids && knows_sizes(parameters.forces.drag); ++k)
+        forces.tell_sizes(k, sizes_around(dem.particles(), forces, k, averaging.in(k)));
     }
     if (replacement)
       replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), coupling.window);

@@ -45,11 +45,11 @@ FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
   if (forces.viscous_stress) found.stress_force += viscous_force(flow);
   if (forces.capillary && flow.scene.surface_tension) found.stress_force += capillary_force(flow);
 
-  const bool accelerates = forces.added_mass > 0 && flow.U.nOldTimes() > 0;
-  if (!accelerates && forces.lift == LiftLaw::none) return found;
+  const bool accelerates = need_acceleration(forces) && flow.U.nOldTimes() > 0;
+  if (!accelerates && !need_vorticity(forces)) return found;
   const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
   const Foam::tensorField& g = gradient().primitiveField();
-  if (forces.lift != LiftLaw::none) found.vorticity = curl(g);
+  if (need_vorticity(forces)) found.vorticity = curl(g);
   if (accelerates) {
     const Foam::vectorField& u = flow.U.primitiveField();
     found.acceleration = (u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue() + (u & g);

@@ -1,26 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Momentum matrix, and the predictor when PIMPLE asks for one.
 //
-//   d(eps rho u)/dt + div(eps rho u u) - div(eps mu (grad u + grad u^T))
+//   d(eps rho u)/dt + div(eps rho u u) - div(m mu (grad u + grad u^T))
 //       = eps (sigma kappa grad alpha - g.x grad rho - grad p_rgh) + force + C (u_ref - u)
+//
+// m = eps, and with forces.suspension_viscosity mu_r(1 - eps): the stress of the suspension as a whole, for
+// which u stands for its mean velocity.
 //
 // The matrix kept for the pressure corrections holds the left side alone: the force of the particles
 // meets the pressure at the faces (face_drag.hpp).
 // eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
+#include "coupler/closures/suspension_viscosity.hpp"
 #include "foam_side/extras.hpp"
+#include "foam_side/flow.hpp"
 
 namespace demvof {
 namespace {
 
+/// m above.
+tmp<volScalarField> stress_share(const Flow& flow) {
+  const volScalarField& eps = flow.porosity->eps;
+  const SuspensionViscosity law = flow.scene.suspension_viscosity;
+  if (law == SuspensionViscosity::none) return eps;
+  tmp<volScalarField> share(1.0 * eps);
+  const auto replace = [law](scalarField& values) {
+    for (scalar& value : values) value = relative_viscosity(law, 1 - value);
+  };
+  replace(share.ref().primitiveFieldRef());
+  for (auto& patch : share.ref().boundaryFieldRef()) replace(patch);
+  return share;
+}
+
 tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
   const volScalarField& eps = flow.porosity->eps;
   // Named rho, so that an interFoam case's scheme for the stress of rho*nuEff is found.
-  const volScalarField fluid_density(Foam::IOobject("rho", flow.time.timeName(), flow.mesh,
-                                                    Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false),
-                                     eps * flow.rho);
+  const volScalarField stress_density(
+      Foam::IOobject("rho", flow.time.timeName(), flow.mesh, Foam::IOobject::NO_READ,
+                     Foam::IOobject::NO_WRITE, false),
+      stress_share(flow) * flow.rho);
   return Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
-         fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(fluid_density, flow.U);
+         fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(stress_density, flow.U);
 }
 
 tmp<Foam::fvVectorMatrix> inertia_and_stress(Flow& flow) {

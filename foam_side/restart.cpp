@@ -57,7 +57,7 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
     const scalarField& goal = flow.porosity->goal.field();
     state["void_fraction_goal"] = std::vector<double>(goal.begin(), goal.end());
   }
-  if (forces.added_mass > 0) {  // Du/Dt looks back by a step
+  if (need_acceleration(forces)) {  // Du/Dt looks back by a step
     std::vector<double> components;
     for (const vector& u : flow.U.oldTime().primitiveField())
       components.insert(components.end(), {u.x(), u.y(), u.z()});

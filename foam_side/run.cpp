@@ -309,7 +309,10 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   if (options.check) {
     const ResolvedNumbers numbers =
         resolved_numbers(parameters, *flow, facts.surface_tension, grid, particles);
-    if (world.rank() == 0) fmt::print("{}\n{}", scene_table(scene.decisions), numbers_table(numbers));
+    if (world.rank() == 0) {
+      fmt::print("{}\n{}", scene_table(scene.decisions), numbers_table(numbers));
+      for (const std::string& advice : scene.advice) fmt::print("beware: {}\n", advice);
+    }
     if (link) link->close();
     return exit_done;
   }

@@ -265,7 +265,7 @@ void RunRecord::write_row(const Flow& flow, const ParticleReport* particles) {
 /// One line for every limit that acted in the run; counts are cells or particles times windows.
 std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   constexpr double unbounded = 1e-8;  // of alpha; what MULES promises
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = flow.scene.advice;
   if (flow.alpha_excess > unbounded)
     lines.push_back(
         fmt::format("alpha left [0, 1] by up to {:.2g}: more nAlphaSubCycles or a smaller maxAlphaCo",

@@ -27,4 +27,9 @@ inline double plane_height(double share) {
   return 2 * std::sin(std::asin(std::clamp(2 * share - 1, -1.0, 1.0)) / 3);
 }
 
+/// Of a full sphere about an axis through its centre, kg m2; mass: kg, radius: m.
+constexpr double moment_of_inertia(double mass, double radius) {
+  return 0.4 * mass * radius * radius;
+}
+
 }  // namespace demvof

@@ -148,7 +148,7 @@ inline double koch_hill(double diameter, double density, double viscosity, doubl
 ///
 /// Source: superficial velocity, drag without the pressure gradient force (total force times eps), which
 /// is model A. Lattice-Boltzmann, phi 0.1 to 0.6, Re up to 1000. For eps -> 1 it is above a single
-/// sphere's drag, by 16 % at Re = 100 and 69 % at Re = 1000.
+/// sphere's drag, by 16 % at Re = 100 and 69 % at Re = 1000. Of several sizes: size_mix.hpp.
 constexpr DragRange beetstra_range{1000, 0.4, 0.9};
 inline double beetstra(double diameter, double density, double viscosity, double slip, double eps) {
   const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);

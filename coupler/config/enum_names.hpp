@@ -57,6 +57,16 @@ inline const EnumNames<DragLaw> enum_names<DragLaw> = {{DragLaw::none, "none"},
 template <>
 inline const EnumNames<OwnWake> enum_names<OwnWake> = {{OwnWake::none, "none"}, {OwnWake::oseen, "oseen"}};
 template <>
+inline const EnumNames<SpinLiftLaw> enum_names<SpinLiftLaw> = {
+    {SpinLiftLaw::none, "none"},
+    {SpinLiftLaw::rubinow_keller, "rubinow_keller"},
+    {SpinLiftLaw::oesterle_bui_dinh, "oesterle_bui_dinh"}};
+template <>
+inline const EnumNames<SuspensionViscosity> enum_names<SuspensionViscosity> = {
+    {SuspensionViscosity::none, "none"},
+    {SuspensionViscosity::krieger_dougherty, "krieger_dougherty"},
+    {SuspensionViscosity::eilers, "eilers"}};
+template <>
 inline const EnumNames<LiftLaw> enum_names<LiftLaw> = {{LiftLaw::none, "none"},
                                                        {LiftLaw::saffman_mei, "saffman_mei"}};
 template <>

@@ -33,6 +33,10 @@ struct ParticleReport {
   Vec3 drag_impulse_bulk;   // the same as drag_impulse unless particles were lost, N s
   Vec3 left_over_unplaced;  // left-over impulse of cells without drag, given to nobody, N s
 
+  // Spin momentum of the half steps, sum of I w, kg m2/s, when the fluid has a torque on the particles, else
+  // 0. It changes by the angular impulses of fluid and contacts, N m s.
+  Vec3 spin_momentum, torque_impulse, contact_torque_impulse;
+
   // Of the solid limit (coupler/transfer/limit_solid.hpp): cells, m3, m3.
   double relieved_cells = 0, relieved_volume = 0, unplaced_volume = 0;
 

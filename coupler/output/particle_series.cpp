@@ -24,6 +24,7 @@ struct NamedVectors {
 };
 std::vector<NamedVectors> named_vectors(const ParticleFrame& frame) {
   return {{"velocity", frame.velocity},
+          {"spin", frame.spin},
           {"drag_force", frame.drag_force},
           {"pressure_force", frame.pressure_force},
           {"contact_force", frame.contact_force}};

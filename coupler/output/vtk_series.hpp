@@ -42,6 +42,7 @@ struct ParticleFrame {
   std::vector<std::int64_t> id;
   std::vector<Vec3> position;        // m
   std::vector<Vec3> velocity;        // m/s
+  std::vector<Vec3> spin;            // rad/s
   std::vector<double> radius;        // m
   std::vector<Vec3> drag_force;      // N
   std::vector<Vec3> pressure_force;  // N

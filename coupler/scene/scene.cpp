@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/closures/drag_range.hpp"
 #include "coupler/config/enum_names.hpp"
 
 namespace demvof {
@@ -24,9 +25,12 @@ class Plan {
   bool turbulence(bool porosity);
   void forces(const ForceParameters& forces);
   void capillary_force(bool named, bool surface_tension);
+  SuspensionViscosity suspension_viscosity(const ForceParameters& forces, bool porosity);
+  void advise_on_drag(DragLaw chosen);
   void empty_bulk_cells();
 
   std::vector<Decision> decisions;
+  std::vector<std::string> advice;
   std::string impossible;  // what the case file forces in vain, one line each
 
  private:
@@ -80,6 +84,11 @@ void Plan::forces(const ForceParameters& forces) {
                      added_mass);
   const bool lift = forces.lift != LiftLaw::none;
   force_on_particles(lift ? "lift (" + name_of(forces.lift) + ")" : "lift", lift);
+  const bool spin_lift = forces.spin_lift != SpinLiftLaw::none;
+  force_on_particles(spin_lift ? "lift by spin (" + name_of(forces.spin_lift) + ")" : "lift by spin",
+                     spin_lift);
+  force_on_particles("torque on particles", forces.torque);
+  force_on_particles("history force", forces.history);
   force_on_particles("constant force on particles", norm(forces.constant) > 0);
 }
 
@@ -89,6 +98,45 @@ void Plan::capillary_force(bool named, bool surface_tension) {
     decide(name, false, "It is named in forces, but the run has no surface tension.");
   else
     force_on_particles(name, named);
+}
+
+SuspensionViscosity Plan::suspension_viscosity(const ForceParameters& forces, bool porosity) {
+  const SuspensionViscosity law = forces.suspension_viscosity;
+  const bool named = law != SuspensionViscosity::none;
+  const std::string name = "viscosity of the suspension" + (named ? " (" + name_of(law) + ")" : "");
+  if (named && with_particles_ && forces.viscous_stress)
+    impossible += fmt::format(
+        "{}forces: viscous_stress and suspension_viscosity cannot both be named: the second gives the fluid "
+        "the whole stress, the particles' share included",
+        impossible.empty() ? "" : "\n");
+  if (named && with_particles_ && !porosity) {
+    decide(name, false, "It is named in forces, but the run has no porosity.");
+    return SuspensionViscosity::none;
+  }
+  force_on_particles(name, named);
+  return with_particles_ ? law : SuspensionViscosity::none;
+}
+
+// A law that is somewhat out of its range is the user's choice; one made for a single sphere in a bed is a
+// mistake that nobody sees.
+void Plan::advise_on_drag(DragLaw chosen) {
+  constexpr double far_out = 0.1;  // of the void fraction
+  if (!with_particles_ || chosen == DragLaw::none) return;
+  const double bed = 1 - facts_.largest_solid_fraction;
+  const double smallest = drag_range(chosen).smallest_void_fraction;
+  if (bed > smallest - far_out) return;
+  std::string known;
+  for (const DragLaw law : {DragLaw::di_felice, DragLaw::rong, DragLaw::gidaspow, DragLaw::koch_hill}) {
+    const DragRange range = drag_range(law);
+    if (range.smallest_void_fraction <= bed)
+      known +=
+          fmt::format("{}{} (Re to {:g})", known.empty() ? "" : ", ", name_of(law), range.largest_reynolds);
+  }
+  if (known.empty()) known = "koch_hill (void fractions from 0.359 on)";
+  advice.push_back(fmt::format(
+      "forces.drag: {} was fitted for void fractions from {:g} on, and the bed has {:.2g} on the bulk grid: "
+      "laws that know it are {}, e.g. forces: [{{drag: {}}}, pressure_gradient]",
+      name_of(chosen), smallest, bed, known, known.substr(0, known.find(' '))));
 }
 
 bool Plan::interface_advection() {
@@ -180,10 +228,13 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   plan.capillary_force(forces.capillary, scene.surface_tension);
   scene.interchange = plan.interchange(interchange);
   scene.porosity = plan.porosity(scene.interchange);
+  scene.suspension_viscosity = plan.suspension_viscosity(forces, scene.porosity);
+  plan.advise_on_drag(forces.drag);
   plan.empty_bulk_cells();
   scene.turbulence = plan.turbulence(scene.porosity);
   if (!plan.impossible.empty()) throw InputError(plan.impossible);
   scene.decisions = plan.decisions;
+  scene.advice = plan.advice;
   return scene;
 }
 

@@ -34,7 +34,9 @@ struct Scene {
   bool porosity = false;
   PhaseInterchange interchange = PhaseInterchange::none;  // how particles cross the interface
   bool turbulence = false;
+  SuspensionViscosity suspension_viscosity = SuspensionViscosity::none;
   std::vector<Decision> decisions;
+  std::vector<std::string> advice;  // what the facts speak against, a sentence each; nothing is changed by it
 };
 
 /// Pure: the plan from the facts and what the case file forces.

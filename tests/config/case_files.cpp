@@ -128,13 +128,17 @@ TEST(CaseFiles, NameForcesInAList) {
     return read_case(file.path(), {"forces=" + list}).forces;
   };
   const ForceParameters all = forces(
-      "[{drag: rong}, viscous_stress, {added_mass: 0.5}, {lift: saffman_mei}, capillary, "
+      "[{drag: rong}, viscous_stress, {added_mass: 0.5}, {lift: saffman_mei}, capillary, torque, history, "
+      "{spin_lift: oesterle_bui_dinh}, {suspension_viscosity: eilers}, "
       "{constant: [0, 1e-6, -2]}]");
   EXPECT_EQ(all.drag, DragLaw::rong);
   EXPECT_FALSE(all.pressure_gradient);
   EXPECT_TRUE(all.viscous_stress && all.capillary && need_gradients(all));
   EXPECT_EQ(all.added_mass, 0.5);
   EXPECT_EQ(all.lift, LiftLaw::saffman_mei);
+  EXPECT_EQ(all.spin_lift, SpinLiftLaw::oesterle_bui_dinh);
+  EXPECT_TRUE(all.torque && all.history);
+  EXPECT_EQ(all.suspension_viscosity, SuspensionViscosity::eilers);
   EXPECT_EQ(all.constant.y, 1e-6);
   EXPECT_EQ(all.constant.z, -2);
   const ForceParameters few = forces("[pressure_gradient, {constant: [1, 0, 0]}]");
@@ -142,7 +146,9 @@ TEST(CaseFiles, NameForcesInAList) {
   EXPECT_EQ(few.drag, DragLaw::none);
   EXPECT_EQ(few.constant.x, 1);
   EXPECT_TRUE(need_gradients(forces("[{added_mass: 0.1}]")) && need_gradients(forces("[viscous_stress]")) &&
-              need_gradients(forces("[capillary]")) && need_gradients(forces("[{lift: saffman_mei}]")));
+              need_gradients(forces("[capillary]")) && need_gradients(forces("[{lift: saffman_mei}]")) &&
+              need_gradients(forces("[torque]")) && need_gradients(forces("[history]")) &&
+              need_gradients(forces("[{spin_lift: rubinow_keller}]")));
 }
 
 TEST(CaseFiles, AcceptAnEndTimeOfWholeWindowsInDecimals) {

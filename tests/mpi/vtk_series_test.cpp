@@ -55,6 +55,7 @@ ParticleFrame frame_of_this_rank() {
     frame.id.push_back(id);
     frame.position.push_back(vector_of(id, 1));
     frame.velocity.push_back(vector_of(id, 2));
+    frame.spin.push_back(vector_of(id, 6));
     frame.radius.push_back(1e-3 * (id + 1));
     frame.drag_force.push_back(vector_of(id, 3));
     frame.pressure_force.push_back(vector_of(id, 4));
@@ -96,6 +97,7 @@ TEST(ParticleSeries, EveryParticleReadsBackOnce) {
     ++seen[id];
     EXPECT_EQ(arrays->GetArray("radius")->GetComponent(i, 0), 1e-3 * (id + 1));
     expect_tuple(arrays->GetArray("velocity"), i, vector_of(id, 2));
+    expect_tuple(arrays->GetArray("spin"), i, vector_of(id, 6));
     expect_tuple(arrays->GetArray("drag_force"), i, vector_of(id, 3));
     expect_tuple(arrays->GetArray("pressure_force"), i, vector_of(id, 4));
     expect_tuple(arrays->GetArray("contact_force"), i, vector_of(id, 5));

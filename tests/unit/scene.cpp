@@ -202,9 +202,48 @@ TEST(ScenePlan, SaysWhichForcesAct) {
   EXPECT_FALSE(decision(scene, "drag").on);
   EXPECT_EQ(decision(scene, "drag").reason, "It is not named in forces.");
   EXPECT_TRUE(decision(scene, "pressure-gradient force").on);
-  for (const char* name : {"viscous stress on particles", "added mass", "lift",
+  for (const char* name : {"viscous stress on particles", "added mass", "lift", "lift by spin",
+                           "viscosity of the suspension", "torque on particles", "history force",
                            "capillary force on particles", "constant force on particles"})
     EXPECT_EQ(decision(scene, name).reason, "It is not named in forces.") << name;
+}
+
+TEST(ScenePlan, GivesTheSuspensionItsViscosity) {
+  ForceParameters forces;
+  forces.suspension_viscosity = SuspensionViscosity::eilers;
+  const Scene scene = plan_scene({}, three_phases(), forces);
+  EXPECT_EQ(scene.suspension_viscosity, SuspensionViscosity::eilers);
+  EXPECT_TRUE(decision(scene, "viscosity of the suspension (eilers)").on);
+  SceneParameters no_porosity;
+  no_porosity.porosity = Switch::off;
+  const Scene without = plan_scene(no_porosity, three_phases(), forces);
+  EXPECT_EQ(without.suspension_viscosity, SuspensionViscosity::none);
+  EXPECT_EQ(decision(without, "viscosity of the suspension (eilers)").reason,
+            "It is named in forces, but the run has no porosity.");
+  forces.viscous_stress = true;  // would count the particles' share twice
+  EXPECT_THROW(plan_scene({}, three_phases(), forces), InputError);
+}
+
+TEST(ScenePlan, AdvisesOnALawThatDoesNotKnowTheBed) {
+  ForceParameters forces;
+  SceneFacts facts = three_phases();
+  facts.largest_solid_fraction = 0.59;
+  const std::vector<std::string> advice = plan_scene({}, facts, forces).advice;
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_NE(advice[0].find("schiller_naumann"), std::string::npos);
+  EXPECT_NE(advice[0].find("e.g. forces: [{drag: di_felice}, pressure_gradient]"), std::string::npos)
+      << advice[0];
+  forces.drag = DragLaw::di_felice;
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+  facts.largest_solid_fraction = 0.62;  // a little out of di_felice's range
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+  forces.drag = DragLaw::schiller_naumann;
+  EXPECT_NE(plan_scene({}, facts, forces).advice.at(0).find("{drag: rong}"), std::string::npos);
+  facts.largest_solid_fraction = 0.05;  // a dilute one
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+  forces.drag = DragLaw::none;
+  facts.largest_solid_fraction = 0.6;
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
 }
 
 TEST(ScenePlan, NamesTheForcesThatAct) {
@@ -213,12 +252,14 @@ TEST(ScenePlan, NamesTheForcesThatAct) {
   forces.viscous_stress = forces.capillary = true;
   forces.added_mass = 0.5;
   forces.lift = LiftLaw::saffman_mei;
+  forces.spin_lift = SpinLiftLaw::rubinow_keller;
+  forces.torque = true;
   forces.constant = {0, 1e-6, 0};
   SceneFacts facts = three_phases();
   const Scene scene = plan_scene({}, facts, forces);
-  for (const char* name :
-       {"drag (rong)", "viscous stress on particles", "added mass (0.5)", "lift (saffman_mei)",
-        "capillary force on particles", "constant force on particles"})
+  for (const char* name : {"drag (rong)", "viscous stress on particles", "added mass (0.5)",
+                           "lift (saffman_mei)", "lift by spin (rubinow_keller)", "torque on particles",
+                           "capillary force on particles", "constant force on particles"})
     EXPECT_TRUE(decision(scene, name).on) << name;
   facts.surface_tension = 0;
   EXPECT_EQ(decision(plan_scene({}, facts, forces), "capillary force on particles").reason,

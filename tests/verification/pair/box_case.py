@@ -80,6 +80,7 @@ class Particle:
     density: float
     velocity: tuple = (0, 0, 0)
     held: bool = False  # frozen in place
+    spin: tuple = (0, 0, 0)
     type: int = 1       # 1 or 2: for contact properties of its own, in script_tail
 
 
@@ -254,7 +255,7 @@ class BoxCase:
                          f"{x:.17g} {y:.17g} {z:.17g}")
         lines.append("\nVelocities\n")
         for i, p in enumerate(self.particles, 1):
-            lines.append("{} {:.17g} {:.17g} {:.17g} 0 0 0".format(i, *p.velocity))
+            lines.append("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}".format(i, *p.velocity, *p.spin))
         (folder / "particles.data").write_text("\n".join(lines) + "\n")
 
         largest = max(p.diameter for p in self.particles)

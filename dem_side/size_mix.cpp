@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_side/size_mix.hpp"
+
+namespace demvof {
+namespace {
+
+// Sums over particles with their weights: m3, m2, m4.
+struct SizeSums {
+  double volume = 0, surface = 0, volume_times_diameter = 0;
+};
+
+}  // namespace
+
+std::vector<SizeMix> sizes_around(const ParticleArrays& particles, const FluidForces& forces, int k,
+                                  AveragingInFluid& averaging) {
+  std::vector<SizeSums> own(particles.count);
+  for (int i = 0; i < particles.count; ++i) {
+    const double volume = forces.carried(i).share(k) * sphere_volume(particles.radius[i]);
+    const double diameter = 2 * particles.radius[i];
+    own[i] = {volume, volume / diameter, volume * diameter};
+  }
+  const std::vector<SizeSums> around = averaging.sample_records(averaging.deposit_records(own));
+  std::vector<SizeMix> sizes(particles.count);
+  for (int i = 0; i < particles.count; ++i) {
+    const SizeSums& sums = around[i];
+    if (!(sums.surface > 0)) continue;
+    const double sauter = sums.volume / sums.surface;
+    sizes[i] = {sauter, sums.volume_times_diameter / sums.volume / sauter};
+  }
+  return sizes;
+}
+
+}  // namespace demvof

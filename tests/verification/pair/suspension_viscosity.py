@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A flow between two walls dies out, with and without neutral spheres in it: suspension_viscosity.py DEMVOF
+
+The last mode of u(z) dies out as exp(-pi^2 mu t/(rho H^2)); with spheres that go with their liquid and have its density
+the rate's ratio is that of the viscosities. The mesh's error is in both and drops out.
+"""
+import math
+import sys
+
+from box_case import BoxCase, Cyclic, Particle, Wall, command_line, scratch
+from record import Record
+
+DENSITY, VISCOSITY, GAP, FRACTION = 1000, 0.5, 0.02, 0.05
+ACROSS = 20  # spheres in each direction: half a fine cell apart, so that all cells hold the same solid volume
+END, FROM = 0.30, 0.12
+
+
+def spheres():
+    spacing = GAP / ACROSS
+    diameter = (6 / math.pi * FRACTION * spacing**3) ** (1 / 3)
+    return [Particle(tuple((site + 0.5) * spacing for site in (i, j, k)), diameter, DENSITY, velocity=(0.01, 0, 0))
+            for i in range(ACROSS // 4) for j in range(ACROSS // 4) for k in range(ACROSS)]
+
+
+def decay_rate(demvof, name, particles, law):
+    case = BoxCase(scratch("suspension_viscosity") / name, upper=(GAP / 4, GAP / 4, GAP), fine=(2, 2, 20), bulk=(2, 2, 10),
+                   end_time=END, window=2e-3, liquid=(DENSITY, VISCOSITY / DENSITY), gravity=(0, 0, 0),
+                   velocity=(0.01, 0, 0), particles=particles, dem_step=2e-4, history_interval=0.02,
+                   forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"suspension_viscosity": law}])
+    for side in ("x-", "x+", "y-", "y+"):
+        case.sides[side] = Cyclic()
+    for side in ("z-", "z+"):
+        case.sides[side] = Wall()
+    run = case.run(demvof)
+    momentum = [a + (b if particles else 0) for a, b in zip(
+        run.history["fluid_momentum_x"], run.history["particle_momentum_x"] if particles else run.times)]
+    first, last = (min(range(len(run.times)), key=lambda i, t=t: abs(run.times[i] - t)) for t in (FROM, END))
+    return -math.log(momentum[last] / momentum[first]) / (run.times[last] - run.times[first])
+
+
+def main():
+    demvof = command_line().demvof
+    record = Record("suspension_viscosity", "Viscosity of a suspension",
+                    "The flow between two walls, 20 mm apart, dies out with neutral spheres of 5 % in it and without them, "
+                    "suspension_viscosity none, krieger_dougherty and eilers. The ratio of the rates is the "
+                    "viscosity over the liquid's: Einstein's law says 1.125, Batchelor and Green's 1.138.",
+                    "tests/Alltest --verification -- -R pair.suspension_viscosity")
+    clear = decay_rate(demvof, "clear", [], None)
+    record.note("clear liquid: rate over pi^2 nu/H^2", clear / (math.pi**2 * VISCOSITY / DENSITY / GAP**2))
+    record.note("without the law: viscosity over the liquid's", decay_rate(demvof, "none", spheres(), "none") / clear)
+    for law, expected in {"krieger_dougherty": (1 - 0.05 / 0.64) ** -1.6,
+                          "eilers": (1 + 1.25 * 0.05 / (1 - 0.05 / 0.64)) ** 2}.items():
+        ratio = decay_rate(demvof, law, spheres(), law) / clear
+        record.note(f"{law}: viscosity over the liquid's", ratio)
+        record.at_most(f"{law}: error", abs(ratio / expected - 1), 0.005)
+    sys.exit(record.write())
+
+
+if __name__ == "__main__":
+    main()
