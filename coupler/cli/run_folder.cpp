@@ -50,7 +50,7 @@ bool inside(const fs::path& inner, const fs::path& outer) {
 }
 
 /// Holds nothing but what a run leaves that did not even start.
-bool is_empty(const fs::path& folder) {
+bool holds_nothing(const fs::path& folder) {
   const fs::directory_iterator all(folder);
   return std::all_of(begin(all), end(all),
                      [](const fs::directory_entry& entry) { return entry.path().filename() == ".lock"; });
@@ -111,7 +111,7 @@ void RunFolder::clear(bool force) const {
   if (fs::exists(path_) && !fs::is_directory(path_))
     throw InputError(
         fmt::format("--out {}: there is a file of that name; choose another --out", path_.string()));
-  if (fs::exists(path_) && !is_empty(path_)) {
+  if (fs::exists(path_) && !holds_nothing(path_)) {
     const bool of_a_run = has_results() || fs::exists(prepare_log()) || fs::exists(path_ / marker);
     if (!of_a_run)
       throw InputError(
