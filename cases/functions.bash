@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the Allrun scripts of the cases share; sourced by them.
 
-# run_case DIR OPTIONS...: builds if needed, runs case.yaml of this folder into DIR with the given
-# options of `demvof run`, and makes the report, also of a run that stopped early.
+# run_case DIR OPTIONS...: runs case.yaml of this folder into DIR with the given options of `demvof run`, and makes
+# the report, also of a run that stopped early. In the source tree it builds first what is not built; elsewhere
+# it takes the demvof of the installation that the cases lie in, or the one in PATH.
 # Returns the exit code of `demvof run`, or Allwmake's if nothing could be built.
 run_case() {
-    local out=$1 status=0 root
+    local out=$1 status=0 root demvof
     shift
     root=$(cd ../.. && pwd)
-    "$root/Allwmake" || return $?
-    "$root/build/release/bin/demvof" run case.yaml --out "$out" "$@" || status=$?
+    demvof=$root/../../bin/demvof
+    if [ -x "$root/Allwmake" ]; then
+        "$root/Allwmake" || return $?
+        demvof=$root/build/release/bin/demvof
+    elif [ ! -x "$demvof" ]; then
+        demvof=demvof
+    fi
+    "$demvof" run case.yaml --out "$out" "$@" || status=$?
     if [ $status -ne 2 ]; then    # 2: wrong input, nothing was run
-        "$root/build/release/bin/demvof" report "$out" || [ $status -ne 0 ] || status=3
+        "$demvof" report "$out" || [ $status -ne 0 ] || status=3
     fi
     return $status
 }

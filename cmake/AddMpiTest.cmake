@@ -4,20 +4,30 @@ demvof_add_mpi_test(NAME name RANKS n... LABELS label... TIMEOUT seconds COMMAND
                     [PARTNER_RANKS m] [PARTNER_COMMAND program args...] [LONG])
 
 One test per entry of RANKS, called name.n when there are several. PARTNER_COMMAND starts beside it in the same
-mpirun, as `mpirun -np n COMMAND : -np m PARTNER_COMMAND` (m is 1 when not given).
+mpirun, as `mpirun -np n+m demvof_pair -np n COMMAND + -np m PARTNER_COMMAND` (m is 1 when not given).
 DEMVOF_TIMEOUT_FACTOR stretches the time limits of slow builds.
 LONG tests run only with `ctest -C verification` (tests/Alltest --verification).
 ]]
 include_guard(GLOBAL)
 
 # Environment of every test that starts ranks: works as root and in a container, ranks may outnumber cores and are
-# not pinned (two tests running at the same time would be pinned to the same core).
-set(DEMVOF_MPI_ENVIRONMENT
-    OMPI_ALLOW_RUN_AS_ROOT=1
-    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    OMPI_MCA_rmaps_base_oversubscribe=1
-    OMPI_MCA_hwloc_base_binding_policy=none
-    OMPI_MCA_btl_vader_single_copy_mechanism=none)
+# not pinned (two tests running at the same time would be pinned to the same core). Open MPI 4 and 5 have their own
+# names for it.
+set(_open_mpi)
+foreach(_folder IN LISTS MPI_CXX_INCLUDE_DIRS)
+  if(EXISTS ${_folder}/mpi.h AND NOT _open_mpi)
+    file(STRINGS ${_folder}/mpi.h _open_mpi REGEX "define OMPI_MAJOR_VERSION")
+    string(REGEX MATCH "[0-9]+" _open_mpi "${_open_mpi}")
+  endif()
+endforeach()
+set(DEMVOF_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
+if(_open_mpi AND _open_mpi LESS 5)
+  list(APPEND DEMVOF_MPI_ENVIRONMENT OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+       OMPI_MCA_btl_vader_single_copy_mechanism=none)
+elseif(_open_mpi)
+  list(APPEND DEMVOF_MPI_ENVIRONMENT PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+       PRTE_MCA_hwloc_default_binding_policy=none)
+endif()
 if(OpenFOAM_PROJECT_DIR)
   list(APPEND DEMVOF_MPI_ENVIRONMENT WM_PROJECT_DIR=${OpenFOAM_PROJECT_DIR})
 endif()
@@ -36,6 +46,7 @@ function(demvof_add_mpi_test)
     message(FATAL_ERROR "demvof_add_mpi_test(${ARG_NAME}): unknown ${ARG_UNPARSED_ARGUMENTS}")
   endif()
 
+  set(pair)
   set(partner)
   set(partner_ranks 0)
   if(ARG_PARTNER_COMMAND)
@@ -44,7 +55,7 @@ function(demvof_add_mpi_test)
       set(partner_ranks ${ARG_PARTNER_RANKS})
     endif()
     demvof_program(program ${ARG_PARTNER_COMMAND})
-    set(partner : ${MPIEXEC_NUMPROC_FLAG} ${partner_ranks} ${program})
+    set(partner + -np ${partner_ranks} ${program})
   endif()
   set(configurations)
   if(ARG_LONG)
@@ -62,8 +73,11 @@ function(demvof_add_mpi_test)
       string(APPEND name .${ranks})
     endif()
     math(EXPR processors "${ranks} + ${partner_ranks}")
+    if(partner)
+      set(pair $<TARGET_FILE:demvof_pair> -np ${ranks})
+    endif()
     add_test(NAME ${name}
-             COMMAND ${MPIEXEC_EXECUTABLE} --timeout ${timeout} ${MPIEXEC_NUMPROC_FLAG} ${ranks} ${program}
+             COMMAND ${MPIEXEC_EXECUTABLE} --timeout ${timeout} ${MPIEXEC_NUMPROC_FLAG} ${processors} ${pair} ${program}
                      ${partner} ${configurations})
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ctest_timeout} PROCESSORS ${processors}
                                             ENVIRONMENT "${DEMVOF_MPI_ENVIRONMENT}")

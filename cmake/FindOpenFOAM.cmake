@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #[[
-Finds OpenFOAM v1912. Headers and libraries are looked for apart, because a distribution's packages hold the
+Finds OpenFOAM (openfoam.com, v1912 to v2412). Headers and libraries are looked for apart, because a distribution's packages hold the
 libraries without the headers.
 
 Looked at, in this order
@@ -24,11 +24,20 @@ set(_libraries
     incompressibleTransportModels twoPhaseMixture twoPhaseProperties interfaceProperties
     immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels waveModels)
 
+# Integers and floating-point numbers are those of the sourced environment; Debian's packages are built with these.
+set(_label_size 32)
+set(_precision DP)
 # A sourced environment comes as a whole: its headers are never mixed with another installation's libraries.
 set(_header_search ${PROJECT_SOURCE_DIR}/build/openfoam)
 set(_library_search)
 if(EXISTS "$ENV{FOAM_LIBBIN}/libOpenFOAM.so")
   set(_header_search "$ENV{WM_PROJECT_DIR}")
+  if(NOT "$ENV{WM_LABEL_SIZE}" STREQUAL "")
+    set(_label_size $ENV{WM_LABEL_SIZE})
+  endif()
+  if(NOT "$ENV{WM_PRECISION_OPTION}" STREQUAL "")
+    set(_precision $ENV{WM_PRECISION_OPTION})
+  endif()
   set(_library_search PATHS "$ENV{FOAM_LIBBIN}" "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" NO_DEFAULT_PATH)
 endif()
 
@@ -38,6 +47,17 @@ find_path(OpenFOAM_SOURCE_DIR src/OpenFOAM/lnInclude/foamVersion.H
 find_path(OpenFOAM_PROJECT_DIR etc/controlDict
           PATHS "$ENV{WM_PROJECT_DIR}" /usr/share/openfoam NO_DEFAULT_PATH
           DOC "WM_PROJECT_DIR of running programs")
+
+# The API number of the headers; the library list depends on it.
+set(OpenFOAM_VERSION)
+if(OpenFOAM_SOURCE_DIR)
+  file(STRINGS ${OpenFOAM_SOURCE_DIR}/wmake/rules/General/general _line REGEX "OPENFOAM=[0-9]+")
+  string(REGEX MATCH "[0-9]+" OpenFOAM_VERSION "${_line}")
+endif()
+if(OpenFOAM_VERSION AND NOT OpenFOAM_VERSION LESS 2006)  # isoAdvection became a library of its own
+  list(APPEND _headers transportModels/geometricVoF)
+  list(APPEND _libraries geometricVoF)
+endif()
 
 set(_library_files)
 set(_missing_libraries)
@@ -51,14 +71,13 @@ foreach(_name IN LISTS _libraries ITEMS Pstream)
   endif()
 endforeach()
 
-# What is there has to be v1912 on both sides, and its Pstream the one that speaks MPI.
+# What is there has to be of one version on both sides, in double precision, and its Pstream the one that speaks MPI.
 set(_trouble)
-set(OpenFOAM_VERSION)
-if(OpenFOAM_SOURCE_DIR)
-  file(STRINGS ${OpenFOAM_SOURCE_DIR}/wmake/rules/General/general _line REGEX "OPENFOAM=[0-9]+")
-  string(REGEX MATCH "[0-9]+" OpenFOAM_VERSION "${_line}")
-else()
-  string(APPEND _trouble "\n  no headers: run ./Allwmake, which obtains them, or source an OpenFOAM v1912 environment")
+if(NOT OpenFOAM_SOURCE_DIR)
+  string(APPEND _trouble "\n  no headers: run ./Allwmake, which obtains them, or source an OpenFOAM environment")
+endif()
+if(NOT _precision STREQUAL "DP")
+  string(APPEND _trouble "\n  WM_PRECISION_OPTION is ${_precision}: demvof's bounds need double precision, DP")
 endif()
 if(_missing_libraries)
   list(JOIN _missing_libraries ", " _text)
@@ -95,7 +114,8 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   list(FILTER _headers EXCLUDE REGEX "/transportModels/lnInclude$")
   add_library(OpenFOAM::OpenFOAM INTERFACE IMPORTED)
   target_include_directories(OpenFOAM::OpenFOAM SYSTEM INTERFACE ${_headers} ${OpenFOAM_SOURCE_DIR}/src/transportModels)
-  target_compile_definitions(OpenFOAM::OpenFOAM INTERFACE OPENFOAM=${OpenFOAM_VERSION} WM_DP WM_LABEL_SIZE=32
+  target_compile_definitions(OpenFOAM::OpenFOAM INTERFACE OPENFOAM=${OpenFOAM_VERSION} WM_${_precision}
+                                                          WM_LABEL_SIZE=${_label_size}
                                                           NoRepository)
   target_compile_options(OpenFOAM::OpenFOAM INTERFACE -ftemplate-depth-100)
   # Models register themselves when their library is loaded: keep libraries that no symbol asks for.

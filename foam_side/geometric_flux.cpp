@@ -2,16 +2,13 @@
 #include "foam_side/geometric_flux.hpp"
 
 #include "foam_side/flow.hpp"
+#include "foam_side/foam_compat.hpp"
 #include "interpolationCellPoint.H"
-#include "isoCutCell.H"
-#include "isoCutFace.H"
 #include "syncTools.H"
 #include "volPointInterpolation.H"
 
 namespace demvof {
 namespace {
-
-constexpr label most_cuts = 100;  // iterations of the search for the iso-value
 
 /// Values of all faces in the mesh's own numbering; empty patches give 0.
 scalarField all_faces(const surfaceScalarField& field) {
@@ -32,8 +29,7 @@ class WetShares {
       : flow_(flow),
         mesh_(flow.mesh),
         at_points_(Foam::volPointInterpolation::New(mesh_).interpolate(flow.alpha)().primitiveField()),
-        cut_cell_(mesh_, at_points_),
-        cut_face_(mesh_, at_points_),
+        cut_(mesh_, flow.alpha, at_points_),
         velocity_(flow.U),
         through_(all_faces(phi)),
         area_(all_faces(mesh_.magSf())),
@@ -44,7 +40,7 @@ class WetShares {
     forAll(flow.alpha, cell) {
       const scalar alpha = flow.alpha[cell];
       const bool surface = alpha > surface_tolerance && alpha < 1 - surface_tolerance;
-      if (surface && cut_cell_.vofCutCell(cell, alpha, cut_tolerance, most_cuts) == 0) leave(cell);
+      if (surface && cut_.cut(cell, alpha, cut_tolerance)) leave(cell);
     }
     hand_to_other_side();
   }
@@ -54,17 +50,16 @@ class WetShares {
  private:
   /// Faces through which fluid leaves a cell that has just been cut.
   void leave(label cell) {
-    const Foam::point centre = cut_cell_.isoFaceCentre();
-    const vector area = cut_cell_.isoFaceArea();
+    const Foam::point centre = cut_.centre();
+    const vector area = cut_.area();
     if (Foam::mag(area) <= 0) return;
     const vector normal = area / Foam::mag(area);
-    const scalar speed = velocity_.interpolate(centre, cell) & normal, value = cut_cell_.isoValue();
+    const scalar speed = velocity_.interpolate(centre, cell) & normal;
     const scalar dt = flow_.time.deltaTValue();
     for (const label face : mesh_.cells()[cell]) {
       const scalar outwards = mesh_.faceOwner()[face] == cell ? through_[face] : -through_[face];
       if (outwards <= Foam::VSMALL || area_[face] <= 0) continue;
-      const scalar volume = cut_face_.timeIntegratedFaceFlux(face, centre, normal, speed, value, dt,
-                                                             through_[face], area_[face]);
+      const scalar volume = cut_.wet_volume(face, centre, normal, speed, dt, through_[face], area_[face]);
       share_[face] = volume / (through_[face] * dt);
     }
   }
@@ -80,8 +75,7 @@ class WetShares {
   const Flow& flow_;
   const Foam::fvMesh& mesh_;
   scalarField at_points_;
-  Foam::isoCutCell cut_cell_;
-  Foam::isoCutFace cut_face_;
+  CellCut cut_;
   Foam::interpolationCellPoint<vector> velocity_;
   scalarField through_, area_;
   scalarField share_;

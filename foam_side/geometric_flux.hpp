@@ -16,7 +16,7 @@ struct Flow;
 ///
 /// elsewhere phi alpha of the upwind cell. Second order for a sharp interface; bounded only as far as
 /// the cut is exact: advance_alpha limits it.
-/// Source: Roenby, Bredmose & Jasak, R. Soc. Open Sci. 3 (2016) 160405; OpenFOAM's isoCutCell, isoCutFace.
+/// Source: Roenby, Bredmose & Jasak, R. Soc. Open Sci. 3 (2016) 160405; OpenFOAM's cuts of cells and faces.
 tmp<surfaceScalarField> geometric_flux(const Flow& flow, const surfaceScalarField& phi);
 
 }  // namespace demvof

@@ -10,7 +10,9 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/cli/child_process.hpp"
+#include "coupler/cli/mpirun.hpp"
 #include "coupler/cli/prepare.hpp"
 
 namespace demvof {
@@ -63,10 +65,12 @@ class Lines {
     for (std::size_t end; (end = rest_.find('\n')) != std::string::npos; rest_.erase(0, end + 1))
       line(rest_.substr(0, end));
   }
-  void finish(bool failed) {
+  /// Whether the programs said anything.
+  bool finish(bool failed) {
     if (!rest_.empty()) line(rest_);
     if (failed && !said_something_)
       for (const std::string& text : chatter_) on_line_(text);
+    return said_something_;
   }
 
  private:
@@ -100,37 +104,37 @@ void read_some(int pipe, Lines& lines, int milliseconds) {
 
 }  // namespace
 
-LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments) {
+LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments,
+                             const std::vector<std::string>& mpirun_words) {
   LaunchCommand command;
   command.environment = foam_environment();
   command.pair = parameters.particles.has_value();
-  const auto add_program = [&](const std::string& program) {
-    command.words.push_back(sibling(program));
-    command.words.push_back(parameters.file);
-    command.words.insert(command.words.end(), arguments.begin(), arguments.end());
-  };
-  if (!command.pair && parameters.fluid.ranks == 1) {
-    add_program("foam_side");
-    return command;
-  }
-  if (geteuid() == 0)
-    command.environment.insert({{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
-  command.words = {"mpirun"};
   const auto add = [&command](const std::vector<std::string>& words) {
     command.words.insert(command.words.end(), words.begin(), words.end());
   };
-  // More ranks than cores are allowed (Open MPI then yields the core while it waits), and ranks are not
-  // pinned: two runs on one machine would be pinned to the same cores.
-  add({"--oversubscribe", "--bind-to", "none"});
-  // When a rank ends badly, mpirun waits twice this time, s, before it kills the others: enough for them
-  // to write what they have, and for a run to be over within 10 s of the loss of a side.
-  add({"--mca", "odls_base_sigkill_timeout", "3"});
-  // Containers often forbid to read another process's memory.
-  add({"--mca", "btl_vader_single_copy_mechanism", "none"});
-  add({"-np", std::to_string(parameters.fluid.ranks)});
+  const auto add_program = [&](const std::string& program) {
+    add({sibling(program), parameters.file});
+    add(arguments);
+  };
+  if (!command.pair && parameters.fluid.ranks == 1) {
+    if (!mpirun_words.empty())
+      throw InputError("demvof run: --mpirun-option: one rank of foam_side alone is started without mpirun");
+    add_program("foam_side");
+    return command;
+  }
+  const Mpirun mpirun = find_mpirun();
+  if (geteuid() == 0)
+    command.environment.insert({{"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}});
+  const int fluid_ranks = parameters.fluid.ranks,
+            particle_ranks = command.pair ? parameters.particles->ranks : 0;
+  add({"mpirun"});
+  add(mpirun_options(mpirun));
+  add(mpirun_words);
+  add({"-np", std::to_string(fluid_ranks + particle_ranks)});
+  if (command.pair) add({sibling("demvof_pair"), "-np", std::to_string(fluid_ranks)});
   add_program("foam_side");
   if (command.pair) {
-    add({":", "-np", std::to_string(parameters.particles->ranks)});
+    add({"+", "-np", std::to_string(particle_ranks)});
     add_program("dem_side");
   }
   return command;
@@ -147,6 +151,18 @@ int run_exit_code(int code, bool pair, bool ended_by_user) {
   if (code == 0 || code == 2 || code == 3 || code == 4) return code;
   // A side killed by a signal is a lost partner for the other.
   return code > 128 && pair && !ended_by_user ? 4 : 3;
+}
+
+std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by, bool said_something) {
+  if (command.words.front() != "mpirun" || (killed_by == 0 && (code == 0 || said_something))) return {};
+  const std::string how = killed_by
+                              ? fmt::format("was killed by signal {} ({})", killed_by, strsignal(killed_by))
+                              : fmt::format("ended with exit code {}", code);
+  if (said_something) return fmt::format("mpirun itself {}; the programs ended with it.", how);
+  return fmt::format(
+      "mpirun itself {} before the programs said a word. The command was\n    {}\n"
+      "What to try: the same mpirun with a program as plain as `hostname`.",
+      how, shell_line(command));
 }
 
 int launch(const LaunchCommand& command, const Watch& watch) {
@@ -176,7 +192,11 @@ int launch(const LaunchCommand& command, const Watch& watch) {
   }
   read_some(pipe_ends[0], lines, 0);
   close(pipe_ends[0]);
-  lines.finish(*code != 0);
+  const bool said_something = lines.finish(*code != 0);
+  if (passed_on == 0)
+    if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
+        !end.empty())
+      watch.on_line(end);
   return run_exit_code(*code, command.pair, passed_on > 0);
 }
 

@@ -18,10 +18,12 @@ struct LaunchCommand {
   bool pair = false;                               // two programs in one mpirun
 };
 
-/// mpirun with foam_side and, with particles, dem_side, both from the folder of this program; one
-/// foam_side rank alone is started without mpirun. arguments: given to both, after the case file.
-/// Throws std::runtime_error when a program is not there.
-LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments);
+/// mpirun with foam_side and, with particles, dem_side through demvof_pair, all from the folder of this
+/// program; one foam_side rank alone is started without mpirun. arguments: given to both, after the case
+/// file; mpirun_words: the user's own options of mpirun. Throws std::runtime_error when a program is not
+/// there, InputError when there are options for an mpirun that is not needed.
+LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments,
+                             const std::vector<std::string>& mpirun_words = {});
 
 /// As a user would type it, environment included.
 std::string shell_line(const LaunchCommand& command);
@@ -37,5 +39,9 @@ int launch(const LaunchCommand& command, const Watch& watch);
 
 /// The run's exit code from that of mpirun, or of a program alone.
 int run_exit_code(int code, bool pair, bool ended_by_user);
+
+/// What to say when mpirun itself was killed by a signal, or ended badly before the programs said a word;
+/// empty otherwise.
+std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by, bool said_something);
 
 }  // namespace demvof

@@ -11,9 +11,9 @@
 #include "coupler/base/errors.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/manual.hpp"
+#include "coupler/cli/versions.hpp"
 #include "coupler/config/describe.hpp"
 #include "coupler/config/nearest.hpp"
-#include "coupler/output/machine.hpp"
 
 namespace {
 
@@ -30,10 +30,10 @@ class CommandLine {
     app_.add_flag_callback(
         "--version",
         [] {
-          fmt::print("demvof {}\n", version());
+          fmt::print("{}", versions());
           throw CLI::Success();
         },
-        "Print the version");
+        "Print the versions of demvof and of what it is built from");
     add_check();
     add_prepare();
     add_run();
@@ -115,6 +115,12 @@ class CommandLine {
         ->add_option("--particle-ranks", run_.particle_ranks,
                      "MPI ranks of dem_side; default: particles.ranks")
         ->type_name("N");
+    command
+        ->add_option(
+            "--mpirun-option", run_.mpirun_words,
+            "A word for mpirun, e.g. --mpirun-option=--hostfile --mpirun-option=hosts; may be repeated")
+        ->type_name("WORD")
+        ->allow_extra_args(false);
     command->add_flag("--continue", run_.continues,
                       "Go on with the run in DIR, from the last state that it has left there");
     command

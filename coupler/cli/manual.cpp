@@ -76,7 +76,10 @@ EXAMPLES
 
 const char* const prepare_manual = R"(DESCRIPTION
     Copies the OpenFOAM case (constant, system, and 0.orig or 0) to DIR/fluid, runs the commands of
-    fluid.prepare there and decomposes the mesh for several fluid ranks. The original is left as it is.
+    fluid.prepare there and decomposes the mesh for several fluid ranks: as system/decomposeParDict says, in
+    the proportions of its cut where that is for another number of ranks, with method simple along the mesh's
+    longest side where there is no dictionary or its method is a stub. It says what it changes. The original is
+    left as it is.
     `demvof run` does this by itself; use it to look at mesh and fields before a run, or before
     starting the two programs by hand.
 
@@ -93,9 +96,10 @@ EXAMPLES
 )";
 
 const char* const run_manual = R"(DESCRIPTION
-    Prepares the fluid case if that is not done yet, starts foam_side and dem_side in one mpirun, shows
-    how far they are, and prints a table of the results. Standard output gets a progress bar on a
-    terminal, and a line per tenth of the run elsewhere. Without particles foam_side runs alone.
+    Prepares the fluid case if that is not done yet, starts foam_side and dem_side in one mpirun (through
+    demvof_pair, which becomes the one or the other on each rank), shows how far they are, and prints a
+    table of the results. Standard output gets a progress bar on a terminal, and a line per tenth of the run
+    elsewhere. Without particles foam_side runs alone.
 
     Ctrl-C (or SIGTERM) stops the run at the end of the window, with everything written; a second one
     ends it at once.
@@ -123,6 +127,7 @@ EXAMPLES
     demvof run case.yaml
     demvof run case.yaml --fluid-ranks 2 --set coupling.window=1e-4 --out runs/small_window
     demvof run case.yaml --print-command
+    demvof run case.yaml --mpirun-option=--hostfile --mpirun-option=hosts
     demvof run case.yaml --continue --set coupling.end_time=2
 )";
 

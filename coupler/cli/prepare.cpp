@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "coupler/cli/child_process.hpp"
+#include "coupler/cli/decompose.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {
@@ -80,16 +81,6 @@ void run_logged(const std::string& command, const RunFolder& folder) {
                                  folder.fluid().string(), log.string(), last_lines(log, 12)));
 }
 
-void decompose(int ranks, const RunFolder& folder) {
-  const fs::path dictionary = folder.fluid() / "system" / "decomposeParDict";
-  if (!fs::exists(dictionary))
-    std::ofstream(dictionary) << "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n"
-                                 "    object decomposeParDict;\n}\nnumberOfSubdomains 1;\nmethod scotch;\n";
-  run_logged(fmt::format("foamDictionary -entry numberOfSubdomains -set {} system/decomposeParDict", ranks),
-             folder);
-  run_logged("decomposePar -force", folder);
-}
-
 }  // namespace
 
 std::map<std::string, std::string> foam_environment() {
@@ -107,7 +98,9 @@ void prepare_case(const CaseParameters& parameters, const RunFolder& folder, boo
   }
   if (parameters.fluid.ranks > 1) {
     say(fmt::format("preparing the fluid case: decomposePar for {} ranks", parameters.fluid.ranks));
-    decompose(parameters.fluid.ranks, folder);
+    decompose(
+        folder.fluid(), parameters.fluid.ranks,
+        [&](const std::string& command) { run_logged(command, folder); }, say);
   }
   folder.mark_ready();
 }

@@ -51,7 +51,8 @@ int run_command(CaseOptions options, const RunOptions& run) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   if (options.no_commands) require_no_commands(parameters);
   const RunFolder folder(parameters, options.out);
-  const LaunchCommand command = launch_command(parameters, program_arguments(options, run, folder));
+  const LaunchCommand command =
+      launch_command(parameters, program_arguments(options, run, folder), run.mpirun_words);
   if (run.print_command) {
     fmt::print("{}\n", shell_line(command));
     return 0;

@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 
+#include "coupler/base/place_in_job.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {
@@ -13,16 +14,11 @@ namespace demvof {
 namespace {
 
 constexpr const char* footer =
-    "Started in pairs on one mpirun, with the same case file and options on both sides:\n"
-    "  mpirun -np 2 foam_side case.yaml : -np 1 dem_side case.yaml\n"
+    "Started in pairs in one job, with the same case file and options on both sides:\n"
+    "  mpirun -np 3 demvof_pair -np 2 foam_side case.yaml + -np 1 dem_side case.yaml\n"
     "`demvof run case.yaml` prepares the fluid case and starts exactly this.\n\n"
     "Exit codes: 0 done, 2 the input is wrong, 3 the run failed or was interrupted, 4 the partner was lost.\n"
     "SIGTERM, SIGINT or SIGUSR1 end the run cleanly after the present window.";
-
-bool first_process() {
-  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  return !rank || std::string(rank) == "0";
-}
 
 }  // namespace
 
@@ -45,7 +41,7 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
     app.parse(argc, argv);
   } catch (const CLI::ParseError& end) {
     const bool wrong = end.get_exit_code() != 0;
-    if (first_process()) app.exit(end);
+    if (rank_in_job().value_or(0) == 0) app.exit(end);
     std::exit(wrong ? 2 : 0);
   }
   if (options.out.empty()) options.out = std::filesystem::path(options.case_file).parent_path() / "run";

@@ -32,10 +32,11 @@ Link::Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
       theirs_(bulk_cells, world.partner_size()),
       patience_(world, time_out_seconds) {
   if (world.partner_size() == 0)
-    throw InputError(fmt::format(
-        "{} was started without {}.\n"
-        "What to do: demvof run case.yaml, or mpirun -np 1 foam_side case.yaml : -np 1 dem_side case.yaml",
-        program_name(world.side()), program_name(partner_of(world.side()))));
+    throw InputError(
+        fmt::format("{} was started without {}.\n"
+                    "What to do: demvof run case.yaml, or mpirun -np 2 demvof_pair -np 1 foam_side case.yaml "
+                    "+ -np 1 dem_side case.yaml",
+                    program_name(world.side()), program_name(partner_of(world.side()))));
   counterparts_ = counterparts(mine_, world.rank(), theirs_);
   prctl(PR_SET_TIMERSLACK, 1000UL);  // ns: the kernel's 50 us would blunt the short pauses of a wait
 }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What dem_side says, and with which exit codes both sides end, when a script or a run goes wrong.
 
-Usage: dem_endings_test.py MPIRUN DEM_SIDE MOCK_FLUID FOLDER
+Usage: dem_endings_test.py MPIRUN DEMVOF_PAIR DEM_SIDE MOCK_FLUID FOLDER
 """
 import json
 import pathlib
@@ -10,8 +10,8 @@ import shutil
 import subprocess
 import sys
 
-mpirun, dem_side, mock_fluid = sys.argv[1:4]
-folder = pathlib.Path(sys.argv[4])
+mpirun, pair, dem_side, mock_fluid = sys.argv[1:5]
+folder = pathlib.Path(sys.argv[5])
 shutil.rmtree(folder, ignore_errors=True)
 shutil.copytree(pathlib.Path(__file__).parent / "beads", folder)
 case = (folder / "settling.yaml").read_text().replace("end_time: 0.6", "end_time: 0.02")
@@ -24,7 +24,8 @@ def run(name, case_text, script_text, *options):
     (folder / "case.yaml").write_text(case_text)
     (folder / "in.settling").write_text(script_text)
     out = folder / name
-    command = [mpirun, "--timeout", "60", "-np", "1", dem_side, str(folder / "case.yaml"), "--out", str(out), ":",
+    command = [mpirun, "--timeout", "60", "-np", "2", pair,
+               "-np", "1", dem_side, str(folder / "case.yaml"), "--out", str(out), "+",
                "-np", "1", mock_fluid, str(folder / "case.yaml"), *options]
     done = subprocess.run(command, capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr, out

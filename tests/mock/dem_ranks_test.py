@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A heap of colliding beads gives the same bulk fields on 1, 2 and 3 ranks of dem_side.
 
-Usage: dem_ranks_test.py MPIRUN DEM_SIDE MOCK_FLUID CASE FOLDER
+Usage: dem_ranks_test.py MPIRUN DEMVOF_PAIR DEM_SIDE MOCK_FLUID CASE FOLDER
 """
 import pathlib
 import subprocess
 import sys
 
-mpirun, dem_side, mock_fluid, case = sys.argv[1:5]
-folder = pathlib.Path(sys.argv[5])
+mpirun, pair, dem_side, mock_fluid, case = sys.argv[1:6]
+folder = pathlib.Path(sys.argv[6])
 folder.mkdir(parents=True, exist_ok=True)
 
 
@@ -17,7 +17,8 @@ def bulk_fields(dem_ranks, fluid_ranks):
     """Cell -> solid volume, drag factor, drag response, drag impulse, drag-weighted velocity."""
     name = f"bulk_{dem_ranks}_{fluid_ranks}"
     subprocess.run(
-        [mpirun, "--timeout", "60", "-np", str(dem_ranks), dem_side, case, "--out", str(folder / name), ":",
+        [mpirun, "--timeout", "60", "-np", str(dem_ranks + fluid_ranks), pair,
+         "-np", str(dem_ranks), dem_side, case, "--out", str(folder / name), "+",
          "-np", str(fluid_ranks), mock_fluid, case, "--left-over", "1e-9", "--bulk-file", str(folder / name)],
         check=True)
     fields = {}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """foam_side beside a bed with prescribed rows (mock_particles), without LIGGGHTS.
 
-Usage: foam_bed_test.py MPIRUN DEMVOF FOAM_SIDE MOCK_PARTICLES FOLDER
+Usage: foam_bed_test.py MPIRUN DEMVOF DEMVOF_PAIR FOAM_SIDE MOCK_PARTICLES FOLDER
 """
 import json
 import pathlib
@@ -14,8 +14,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verificati
 from box_case import BoxCase, Inlet, Open, Outlet, Particle, Slip, Wall, SIDES, side_means  # noqa: E402
 from reporting.run import Run  # noqa: E402
 
-MPIRUN, DEMVOF, FOAM_SIDE, MOCK = sys.argv[1:5]
-FOLDER = pathlib.Path(sys.argv[5])
+MPIRUN, DEMVOF, PAIR, FOAM_SIDE, MOCK = sys.argv[1:6]
+FOLDER = pathlib.Path(sys.argv[6])
 WINDOW, FRACTION = 1e-3, 0.4
 BED = (0.02, 0.06)
 
@@ -37,8 +37,9 @@ class Bed(unittest.TestCase):
         options = [*options, "--set", f"fluid.ranks={ranks[0]}"]
         settings = [word for word in options if word != "--continue"]
         done = subprocess.run(
-            [MPIRUN, "--timeout", "100", "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,
-             ":", "-np", str(ranks[1]), MOCK, str(self.case_file), *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
+            [MPIRUN, "--timeout", "100", "-np", str(sum(ranks)), PAIR,
+             "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,
+             "+", "-np", str(ranks[1]), MOCK, str(self.case_file), *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
              "--solid-fraction", str(FRACTION), *map(str, bed), *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)

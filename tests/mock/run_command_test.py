@@ -54,7 +54,8 @@ class RunCommand(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.base)
         programs = self.base / "bin"
         programs.mkdir()
-        shutil.copy(DEMVOF, programs / "demvof")
+        for name in ("demvof", "demvof_pair"):
+            shutil.copy(DEMVOF.parent / name, programs / name)
         for name in ("foam_side", "dem_side"):
             (programs / name).write_text(STAND_IN)
             (programs / name).chmod(0o755)
@@ -71,7 +72,7 @@ class RunCommand(unittest.TestCase):
             "coupling: {end_time: 1, window: 0.1}\n")
 
     def start(self, *arguments, fluid="complete", particles="complete", **options):
-        environment = {**os.environ, "FLUID": fluid, "PARTICLES": particles}
+        environment = {**options.pop("env", os.environ), "FLUID": fluid, "PARTICLES": particles}
         return subprocess.Popen([self.base / "bin/demvof", *arguments], cwd=self.base, env=environment, text=True,
                                 start_new_session=True,
                                 **{"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options})
@@ -149,9 +150,49 @@ class RunCommand(unittest.TestCase):
         self.assertEqual(code, 0)
         programs = self.base / "bin"
         options = "--out 'a b' --set fluid.ranks=2"
-        self.assertRegex(output, rf"^.*mpirun .*-np 2 {programs}/foam_side case.yaml {options} : "
-                                 rf"-np 1 {programs}/dem_side case.yaml {options}\n$")
+        self.assertRegex(output, rf"^.*mpirun .*-np 3 {programs}/demvof_pair -np 2 {programs}/foam_side case.yaml "
+                                 rf"{options} \+ -np 1 {programs}/dem_side case.yaml {options}\n$")
         self.assertFalse((self.base / "a b").exists())
+
+    def test_mpirun_gets_the_users_own_words(self):
+        words = ("--mpirun-option=-x", "--mpirun-option=GREETING=good day")
+        code, output = self.demvof("run", "case.yaml", "--print-command", *words)
+        self.assertIn(" -x 'GREETING=good day' -np 2 ", output)
+        code, output = self.demvof("run", "case.yaml", *words)
+        self.assertEqual(code, 0, output)
+        self.write_case("")
+        code, output = self.demvof("run", "case.yaml", "--force", *words)
+        self.assertEqual(code, 2)
+        self.assertIn("is started without mpirun", output)
+
+    def put_mpirun_first_in_path(self, script):
+        """What the real mpirun says of its version, and the script for all else."""
+        folder = self.base / "mpirun"
+        folder.mkdir()
+        version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+        (folder / "mpirun").write_text(f"#!/bin/sh\n[ $1 != --version ] || {{ echo '{version}'; exit; }}\n{script}\n")
+        (folder / "mpirun").chmod(0o755)
+        return {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+
+    def test_an_mpirun_that_dies_is_named(self):
+        for script, said in (("kill -SEGV $$", r"mpirun itself was killed by signal 11 \(Segmentation fault\) before"),
+                             ("exit 1", "mpirun itself ended with exit code 1 before the programs said a word"),
+                             ("echo a side speaks; kill -9 $$", r"killed by signal 9 \(Killed\); the programs ended")):
+            with self.subTest(script):
+                shutil.rmtree(self.base / "mpirun", ignore_errors=True)
+                environment = self.put_mpirun_first_in_path(script)
+                code, output = self.demvof("run", "case.yaml", "--force", env=environment)
+                self.assertNotEqual(code, 0)
+                self.assertRegex(output, said)
+                self.assertEqual("What to try: the same mpirun" in output, "speaks" not in script, output)
+
+    def test_an_mpirun_of_another_mpi_is_refused(self):
+        environment = self.put_mpirun_first_in_path("exit 1")
+        (self.base / "mpirun/mpirun").write_text("#!/bin/sh\necho HYDRA build details:\n")
+        code, output = self.demvof("run", "case.yaml", env=environment)
+        self.assertEqual(code, 3)
+        self.assertIn("the first mpirun in PATH is of HYDRA build details:, but demvof runs with Open MPI", output)
+        self.assertFalse((self.base / "run").exists())
 
     def test_printed_command_runs_as_it_is(self):
         self.demvof("prepare", "case.yaml")
@@ -169,6 +210,13 @@ class RunCommand(unittest.TestCase):
         code, output = self.demvof("run", "case.yaml")
         self.assertEqual(code, 0, output)
         self.assertFalse((self.base / "bin/dem_side.arguments").exists())
+
+    def test_the_version_names_all_parts(self):
+        code, output = self.demvof("--version")
+        self.assertEqual(code, 0)
+        number = r"\d+\.\d+(\.\d+)?"
+        self.assertRegex(output, rf"^demvof {number}( \(.+\))?\nOpenFOAM (v\d{{4}}|not built in)\n"
+                                 rf"LIGGGHTS ({number}|not built in)\nOpen MPI {number}\S*\nyaml-cpp {number}\nVTK {number}\n$")
 
     def test_a_program_that_is_not_there_is_named(self):
         (self.base / "bin/dem_side").unlink()

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/base/place_in_job.hpp"
 
 namespace demvof::test {
 namespace {
@@ -20,13 +21,6 @@ class RankedFailures : public testing::EmptyTestEventListener {
                    result.file_name(), result.line_number(), result.message());
   }
 };
-
-// mpirun hands every process its rank before MPI is initialised.
-int real_rank() {
-  const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
-  if (!rank) rank = std::getenv("PMI_RANK");
-  return rank ? std::atoi(rank) : 0;
-}
 
 }  // namespace
 
@@ -47,7 +41,7 @@ double sum_over_both(double value) {
 int run_both_sides(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const std::string sides = argc > 1 ? argv[1] : "";
-  const int rank = real_rank();
+  const int rank = rank_in_job().value_or(0);
   if (rank >= static_cast<int>(sides.size())) {
     std::fprintf(stderr, "usage: mpirun -np N %s SIDES   (one letter f or p for each rank)\n", argv[0]);
     return 1;

@@ -15,6 +15,8 @@ import unittest
 
 ACTOR = sys.argv.pop(1)
 MPIRUN = sys.argv.pop(1)
+DEMVOF_PAIR = sys.argv.pop(1)
+OPEN_MPI_4 = "(Open MPI) 4." in subprocess.run([MPIRUN, "--version"], capture_output=True, text=True).stdout
 # The shell must outlive the signals that mpirun sends to it and its child.
 RANK = 'trap : TERM INT USR1; "$@"; code=$?; echo $code > code.$OMPI_COMM_WORLD_RANK; exit $code'
 
@@ -22,13 +24,16 @@ RANK = 'trap : TERM INT USR1; "$@"; code=$?; echo $code > code.$OMPI_COMM_WORLD_
 class Pair:
     """A running pair in a folder of its own."""
 
-    def __init__(self, fluid, particles, ranks=(1, 1), mpirun_options=()):
+    def __init__(self, fluid, particles, ranks=(1, 1), mpirun_options=(), by_mpirun=False):
+        """by_mpirun: mpirun itself starts the two programs, not demvof_pair."""
         self.folder = tempfile.mkdtemp(dir=FOLDER)
         self.ranks = ranks
         part = lambda n, side, role: ["-np", str(n), "sh", "-c", RANK, "sh", ACTOR, side, role]
         self.stderr = open(os.path.join(self.folder, "stderr"), "w+")
+        separator = ":" if by_mpirun else "+"
+        start = [] if by_mpirun else ["-np", str(sum(ranks)), DEMVOF_PAIR]
         self.process = subprocess.Popen(
-            [MPIRUN, *mpirun_options, *part(ranks[0], "fluid", fluid), ":", *part(ranks[1], "particles", particles)],
+            [MPIRUN, *mpirun_options, *start, *part(ranks[0], "fluid", fluid), separator, *part(ranks[1], "particles", particles)],
             cwd=self.folder, stdout=self.stderr, stderr=self.stderr)
 
     def read(self, name):
@@ -82,6 +87,18 @@ class Endings(unittest.TestCase):
         for text in words:
             self.assertIn(text, output)
         return output
+
+    # Started by hand.
+    @unittest.skipUnless(OPEN_MPI_4, "mpirun of Open MPI 5.0 crashes on `a : b` (open-mpi/ompi issue 13303)")
+    def test_started_by_mpirun_without_demvof_pair(self):
+        pair = Pair("windows", "run_error", by_mpirun=True)
+        self.check(pair, [4, 3], ["dem_side stopped in stage 'windows'"], mpirun_code=3)
+
+    def test_ranks_that_do_not_add_up(self):
+        done = subprocess.run([MPIRUN, "-np", "3", DEMVOF_PAIR, "-np", "1", "true", "+", "-np", "1", "true"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("the programs want 2 ranks, the job has 3"), 1, done.stderr)
 
     # A side is killed: the others say so, speak their last words and end with 4. Where there are several,
     # mpirun may kill the last of them before it has exited.

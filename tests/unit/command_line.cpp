@@ -9,6 +9,7 @@
 
 #include "coupler/base/errors.hpp"
 #include "coupler/cli/child_process.hpp"
+#include "coupler/cli/decompose.hpp"
 #include "coupler/cli/launch.hpp"
 #include "coupler/cli/progress_display.hpp"
 #include "coupler/cli/run_folder.hpp"
@@ -64,6 +65,21 @@ TEST(Clock, CountsSecondsMinutesHours) {
   EXPECT_EQ(clock_text(5.4), "0:05");
   EXPECT_EQ(clock_text(65), "1:05");
   EXPECT_EQ(clock_text(2 * 3600 + 3 * 60 + 4), "2:03:04");
+}
+
+TEST(Cut, GoesAlongTheLongestSide) {
+  EXPECT_EQ(cut_along_longest({0.4, 0.2, 0.6}, 5), (Cut{1, 1, 5}));
+  EXPECT_EQ(cut_along_longest({1, 1, 1}, 2), (Cut{2, 1, 1}));
+}
+
+TEST(Cut, KeepsTheDirectionsAndProportionsOfTheGivenOne) {
+  const std::array<double, 3> sides = {1, 2, 3};
+  EXPECT_EQ(cut_like({1, 2, 1}, sides, 7), (Cut{1, 7, 1}));
+  EXPECT_EQ(cut_like({2, 2, 1}, sides, 16), (Cut{4, 4, 1}));
+  EXPECT_EQ(cut_like({2, 2, 1}, sides, 8), (Cut{2, 4, 1})) << "y is longer than x";
+  EXPECT_EQ(cut_like({4, 1, 2}, sides, 32), (Cut{8, 1, 4}));
+  EXPECT_EQ(cut_like({2, 2, 2}, sides, 3), (Cut{1, 1, 3}));
+  EXPECT_EQ(cut_like({1, 1, 1}, sides, 6), (Cut{1, 1, 6})) << "no direction is given";
 }
 
 Progress halfway() {
