@@ -39,7 +39,8 @@ void renew_given_flux(Flow& flow) {
 
 /// How the velocity answered to a force in the last step, m3 s/kg; before the first one the same everywhere.
 tmp<surfaceScalarField> last_answer(const Flow& flow) {
-  if (const auto& answer = flow.pressure_system.inverse_diagonal) return fvc::interpolate(*answer);
+  if (const auto& answer = flow.pressure_system.inverse_diagonal)
+    return tmp<surfaceScalarField>::New("rAUf", fvc::interpolate(*answer));
   return surfaceScalarField::New("rAUf", flow.mesh,
                                  dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
 }
