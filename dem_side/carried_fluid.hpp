@@ -25,7 +25,7 @@ struct CarriedFluid {
   Vec3 left_over_force;      // N
   // Received in this window:
   Vec3 drag_impulse;           // lift and added mass included, N s
-  double drag_factor_sum = 0;  // sum of beta over the steps, with the wetted share of each, kg/s
+  double drag_factor_sum = 0;  // sum of beta over the evaluations, with the wetted share of each, kg/s
   double drag_exponent = 1;    // n at the start of this window (implicit_drag.hpp), -
 };
 
@@ -39,8 +39,9 @@ struct CarriedSurface {
 
 /// What contacts did in this window.
 struct CarriedContacts {
-  double steps = 0;  // with a force other than gravity
-  Vec3 impulse;      // N s
+  double evaluations = 0;  // of the forces: DEM steps, and the first half step of a run
+  double touching = 0;     // those of them with a force other than gravity
+  Vec3 impulse;            // N s
 };
 
 struct CarriedRow {

@@ -150,6 +150,17 @@ void Dem::set_up() {
   }
 }
 
+void Dem::renew_added_forces() {
+  const ParticleArrays local = particles();
+  double* const* added = added_forces();
+  double* const* force = liggghts_->atom->f;
+  for (int i = 0; i < local.count; ++i)
+    for (int axis = 0; axis < 3; ++axis) force[i][axis] -= added[i][axis];
+  add_forces_(local, added);
+  for (int i = 0; i < local.count; ++i)
+    for (int axis = 0; axis < 3; ++axis) force[i][axis] += added[i][axis];
+}
+
 // "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
 void Dem::run(int steps) {
   guarded([&] { liggghts_->input->one(fmt::format("run {} pre no post no", steps).c_str()); });

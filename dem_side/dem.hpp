@@ -66,6 +66,9 @@ class Dem {
   /// adds forces is attached before. In a run that goes on they are those of its last step.
   /// Throws InputError when LIGGGHTS finds the script incomplete.
   void set_up();
+  /// Calls add_forces again for the state that set_up() has left: the first half step moves with what it
+  /// finds now. After set_up(), before the first run().
+  void renew_added_forces();
   /// Advances by a number of time steps. Throws SolverStopped when LIGGGHTS gives up.
   void run(int steps);
 

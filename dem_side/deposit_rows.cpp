@@ -16,9 +16,9 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
     const CarriedRow& row = carried_by(rows, i);
     const CarriedFluid& fluid = row.fluid[k];
     const double radius = particles.radius[i], mass = particles.mass[i];
-    const double beta = mean_drag_factor(fluid), tangent = mean_drag_tangent(fluid);
-    const double other = mean_drag_tangent(row.fluid[1 - k]);
-    const double held = dem_.moves(particles.mask[i]) && steps_ > 0 ? row.contacts.steps / steps_ : 1;
+    const double beta = mean_drag_factor(row, k), tangent = mean_drag_tangent(row, k);
+    const double other = mean_drag_tangent(row, 1 - k);
+    const double held = held_share(row, particles.mask[i]);
     const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
     const double response = drag_response(tangent, mass, window_, held, added, other);
     BulkParticles& here = contributions[i];
@@ -43,6 +43,25 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
   return contributions;
 }
 
+// The drag C_s (u - v) of the window, C_s: beta_eff with the secant, is C (u - u_ref), u_ref = u - C_s/C (u -
+// v).
+std::vector<BulkParticles> FluidForces::expected_contributions(int k) const {
+  const ParticleArrays particles = dem_.particles();
+  std::vector<BulkParticles> expected = contributions(k);
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (int i = 0; i < particles.count; ++i) {
+    const CarriedRow& row = carried_by(rows, i);
+    const double radius = particles.radius[i];
+    const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
+    const double secant =
+        drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
+                      held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
+    expected[i].drag_impulse = {};
+    expected[i].response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
+  }
+  return expected;
+}
+
 std::vector<Support> FluidForces::support(int k) const {
   const ParticleArrays particles = dem_.particles();
   std::vector<Support> support(particles.count);
@@ -60,8 +79,8 @@ std::vector<Support> FluidForces::support(int k) const {
     const double added = added_mass(row, 0, particles.radius[i]) + added_mass(row, 1, particles.radius[i]);
     support[i] = {share * row.contacts.impulse, fluid.drag_impulse,
                   window_ * (share * others + fluid.left_over_force),
-                  drag_response(mean_drag_tangent(fluid), particles.mass[i], window_, moves ? 0 : 1, added,
-                                mean_drag_tangent(row.fluid[1 - k]))};
+                  drag_response(mean_drag_tangent(row, k), particles.mass[i], window_, moves ? 0 : 1, added,
+                                mean_drag_tangent(row, 1 - k))};
   }
   return support;
 }

@@ -111,12 +111,23 @@ void FluidForces::attach(const Drag& drag_law) {
     });
 }
 
-double FluidForces::mean_drag_factor(const CarriedFluid& fluid) const {
-  return steps_ > 0 ? fluid.drag_factor_sum / steps_ : 0;
+double FluidForces::mean_drag_factor(const CarriedRow& row, int k) {
+  return row.contacts.evaluations > 0 ? row.fluid[k].drag_factor_sum / row.contacts.evaluations : 0;
 }
 
-double FluidForces::mean_drag_tangent(const CarriedFluid& fluid) const {
-  return fluid.drag_exponent * mean_drag_factor(fluid);
+double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
+  return row.fluid[k].drag_exponent * mean_drag_factor(row, k);
+}
+
+double FluidForces::held_share(const CarriedRow& row, int mask) const {
+  const CarriedContacts& contacts = row.contacts;
+  return dem_.moves(mask) && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
+}
+
+void FluidForces::first_half_step() {
+  half_step_ = true;
+  dem_.renew_added_forces();
+  half_step_ = false;
 }
 
 void FluidForces::go_on_from(double window, int steps) {
@@ -141,7 +152,7 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
     CarriedRow row;
     for (int k = 0; k < (two ? 2 : 1); ++k) {
       const FluidAtParticle& here = fluids.fluid[k][i];
-      const double beta = mean_drag_factor(before.fluid[k]);  // of the window that left something over
+      const double beta = mean_drag_factor(before, k);  // of the window that left something over
       CarriedFluid& fluid = row.fluid[k];
       fluid.velocity = here.velocity;
       fluid.density = here.density;
@@ -227,7 +238,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       store(external[i], dem_.moves(particles.mask[i]) ? constant : Vec3{});
     return;
   }
-  const double step = dem_.time_step();
+  const double step = half_step_ ? dem_.time_step() / 2 : dem_.time_step();
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
@@ -240,8 +251,9 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     const bool moves = dem_.moves(particles.mask[i]);
     const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
     const Vec3 contact = vec3(particles.force[i]) - weight;
-    row.contacts.steps += touches(contact, weight);
-    if (moves) {
+    row.contacts.touching += touches(contact, weight);
+    ++row.contacts.evaluations;
+    if (moves && !half_step_) {  // Dem::set_up() has given half a step of these
       row.contacts.impulse += step * contact;
       sums.contact += contact;
       sums.gravity += weight;
@@ -253,7 +265,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       continue;
     }
 
-    const double wetted = move_surface(row.surface, velocity, radius, step);
+    const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, step);
     struct Part {  // in one fluid
       double beta = 0, added = 0;
       Vec3 slip, across;
@@ -328,8 +340,9 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     else
       sums.held += given + steady;
   }
-  for (Vec3 WindowImpulses::*part : window_impulses) force_sums_.*part += sums.*part;
-  ++steps_;
+  for (Vec3 WindowImpulses::*part : window_impulses)
+    force_sums_.*part += step / dem_.time_step() * (sums.*part);
+  steps_ += !half_step_;
 }
 
 const CarriedRow& FluidForces::carried(int i) const {

@@ -33,7 +33,8 @@
 //
 // therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
 // drag + pressure + left-over + stress + constant - held + contact + gravity, add up to its change to
-// round-off.
+// round-off. LIGGGHTS takes the first half step of a run with the forces of its set-up, which knows no fluid:
+// first_half_step() puts the fluid in, and counts what it gives as the first window's.
 
 #include <functional>
 #include <optional>
@@ -94,6 +95,10 @@ class FluidForces {
   /// particle.
   void tell_sizes(int k, const std::vector<SizeMix>& sizes);
 
+  /// Adds the fluid's forces to those of Dem::set_up(). Once, after the first begin_window() of a run that is
+  /// not continued.
+  void first_half_step();
+
   /// Sets what the surface makes of local particles that felt no fluid yet: at the start, and when they are
   /// new.
   void see_surface(const std::vector<SeenSurface>& surface);
@@ -103,6 +108,9 @@ class FluidForces {
 
   /// What each local particle adds to the bulk grid at the end of the window in fluid k, before weighting.
   std::vector<BulkParticles> contributions(int k = 0) const;
+  /// The same for a window that has not been simulated yet: the drag that the fluid of its start asks for, as
+  /// a reference velocity, so that the particles are owed what the fluid gets. After first_half_step().
+  std::vector<BulkParticles> expected_contributions(int k = 0) const;
 
   /// The same of what holds it.
   std::vector<Support> support(int k = 0) const;
@@ -133,8 +141,9 @@ class FluidForces {
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   Vec3 spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
                  const Vec3& spin, const Vec3& slip);
-  double mean_drag_factor(const CarriedFluid& fluid) const;
-  double mean_drag_tangent(const CarriedFluid& fluid) const;
+  static double mean_drag_factor(const CarriedRow& row, int k);
+  static double mean_drag_tangent(const CarriedRow& row, int k);
+  double held_share(const CarriedRow& row, int mask) const;               // of the window, in contact
   double added_mass(const CarriedRow& row, int k, double radius) const {  // kg
     return parameters_.added_mass * row.share(k) * row.fluid[k].density * sphere_volume(radius);
   }
@@ -144,6 +153,7 @@ class FluidForces {
   ForceParameters parameters_;
   std::optional<WakeWidth> own_wake_width_;
   bool begun_ = false;         // a window; before it is Dem::set_up()
+  bool half_step_ = false;     // in first_half_step()
   double window_ = 0;          // s; 0 before the first one
   int steps_ = 0;              // done in this window
   WindowImpulses force_sums_;  // N, summed over the steps of this window

@@ -174,6 +174,16 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     }
     if (replacement)
       replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), coupling.window);
+    if (link.number() == 1) {
+      forces.first_half_step();  // the fluid is known now
+      if (plan.schedule == Schedule::concurrent) {
+        ParticleMessage expected;
+        for (int k = 0; k < averaging.fluids(); ++k)
+          expected.sums.push_back(averaging.in(k).deposit(forces.expected_contributions(k)));
+        if (replacement) expected.droplets.emplace();
+        link.send(expected);
+      }
+    }
     run_stage().set("DEM steps");
     {
       const Stopwatch watch(seconds.dem);

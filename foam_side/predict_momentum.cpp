@@ -9,7 +9,9 @@
 //
 // The matrix kept for the pressure corrections holds the left side alone: the force of the particles
 // meets the pressure at the faces (face_drag.hpp).
-// eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
+// Without the predictor the pressure corrections alone have to spread the momentum that viscosity carries
+// from cell to cell, which they do not once nu dt/dx2 is above 1: then the predictor is on whatever PIMPLE
+// says. eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
 #include "coupler/closures/suspension_viscosity.hpp"
 #include "foam_side/extras.hpp"
@@ -127,6 +129,30 @@ tmp<surfaceScalarField> relax_momentum(Flow& flow, Foam::fvVectorMatrix& momentu
   return relaxation_memory(flow, unrelaxed, momentum.A());
 }
 
+/// nu dt/dx2, largest of all faces.
+double viscous_number(const Flow& flow) {
+  const tmp<volScalarField> nu = flow.turbulence->nuEff();
+  const surfaceScalarField& inverse = flow.mesh.nonOrthDeltaCoeffs();
+  double largest = 0;
+  forAll(flow.mesh.owner(), face) {
+    const double between = std::max(nu()[flow.mesh.owner()[face]], nu()[flow.mesh.neighbour()[face]]);
+    largest = std::max(largest, between * inverse[face] * inverse[face]);
+  }
+  return Foam::returnReduce(largest, Foam::maxOp<double>()) * flow.time.deltaTValue();
+}
+
+bool predicts(Flow& flow) {
+  if (flow.pimple.momentumPredictor()) return true;
+  const double number = viscous_number(flow);
+  static bool said = false;
+  if (number > 1 && !said) {
+    Foam::Info << "Momentum predictor switched on where nu dt/dx2 > 1 (here " << number
+               << "): without it the pressure corrections do not converge" << Foam::endl;
+    said = true;
+  }
+  return number > 1;
+}
+
 }  // namespace
 
 void predict_momentum(Flow& flow) {
@@ -136,7 +162,7 @@ void predict_momentum(Flow& flow) {
   add_sources(flow, *system.momentum);
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   constrain(flow, *system.momentum);
-  if (flow.pimple.momentumPredictor()) solve_momentum(flow, *system.momentum);
+  if (predicts(flow)) solve_momentum(flow, *system.momentum);
 
   const volScalarField A(system.momentum->A());
   system.inverse_diagonal.reset();  // first: OpenFOAM maps the field that has the name

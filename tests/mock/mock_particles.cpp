@@ -78,6 +78,15 @@ class Bed {
     }
   }
 
+  /// What it expects of the fluid before it has done anything: as feel(), but owed to it.
+  void expect(const CellValues<BulkFluid>& fluid, double window, CellValues<BulkParticles>& rows) const {
+    feel(fluid, window, rows);
+    for (BulkParticles& row : rows.values) {
+      row.response_weighted_velocity -= row.drag_impulse / window;
+      row.drag_impulse = {};
+    }
+  }
+
   /// What it received in a window that began with `before`, and what it is now.
   ParticleReport report(const CellValues<BulkParticles>& before, const CellValues<BulkFluid>& fluid,
                         const CellValues<BulkParticles>& now, double window) const {
@@ -162,6 +171,13 @@ int play(const Options& options, OwnWorld& world) {
   while (link.next_window()) {
     const FluidMessage fluid = link.fluid();
     CellValues<BulkParticles> next = bed.at(link.end_time());
+    if (plan.schedule == Schedule::concurrent && link.number() == 1) {
+      CellValues<BulkParticles> expected = rows;
+      bed.expect(fluid.means[0], plan.window, expected);
+      ParticleMessage message{in_liquid(expected), {}};
+      if (plan.interface) message.droplets.emplace();
+      link.send(message);
+    }
     bed.feel(fluid.means[0], plan.window, next);
     ParticleMessage done{in_liquid(next), {}};
     if (plan.interface) done.droplets.emplace();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Momentum exchange in one bulk cell: fluid of mass 1, window 1, drag factor K, particles of mass phi of
-// which the fraction `held` (by drag) is held at rest by contacts. What the particles do in a window is
-// solved exactly; what the fluid gets is what fluid_source() says. Stability is the growth of the linear map
-// from window to window, and the books are closed by the ledger.
+// which the fraction `held` (by drag) is held at rest by contacts. Around the slip of a steady state the drag
+// changes by n K for each change of the slip, n = 1 (Stokes) to 2 (Newton); of what holds, only the part
+// `support` may be seen (dem_side/support.hpp). What the particles do in a window is solved exactly; what the
+// fluid gets is what fluid_source() says. Stability is the growth of the linear map from window to window,
+// and the books are closed by the ledger.
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,7 @@
 #include "coupler/exchange/ledger.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/exchange/relaxation.hpp"
+#include "dem_side/implicit_drag.hpp"
 #include "tests/support/growth.hpp"
 
 namespace demvof {
@@ -40,13 +43,20 @@ struct Cell {
   Told tell;
   double drag_factor, mass_loading, held;
   int fluid_steps = 1;
+  double exponent = 1, support = 1;
+  double counted_exponent = exponent;  // n as the response counts it
 
-  double held_drag() const { return held * drag_factor; }
-  double free_drag() const { return (1 - held) * drag_factor; }
+  double held_drag() const { return held * exponent * drag_factor; }
+  double free_drag() const { return (1 - held) * exponent * drag_factor; }
   double free_mass() const { return (1 - held) * mass_loading; }
-  double drag_response() const {
-    return held_drag() - (held < 1 ? free_mass() * std::expm1(-free_drag() / free_mass()) : 0);
+  BulkParticles particles() const {
+    BulkParticles sum;
+    sum.drag_factor = drag_factor;
+    sum.drag_response =
+        demvof::drag_response(counted_exponent * drag_factor, mass_loading, window, support * held);
+    return sum;
   }
+  double drag_response() const { return particles().drag_response; }
 
   /// What a window gives: state, and books for the ledger; nothing but x components.
   State advance(const State& now, WindowBalance* books = nullptr) const {
@@ -65,11 +75,9 @@ struct Cell {
 
     // The fluid's window: with what the particles did in it, or in the one before.
     const State& of_particles = schedule == Schedule::staggered ? next : now;
-    BulkParticles particles;
+    BulkParticles particles = this->particles();
     particles.drag_impulse.x = of_particles[j];
-    particles.drag_factor = drag_factor;
     particles.drag_weighted_velocity.x = free_drag() * of_particles[v];
-    particles.drag_response = drag_response();
     particles.response_weighted_velocity.x = particles.drag_response * of_particles[felt];
     const FluidSource source = fluid_source(scheme, particles, window);
     const double step = window / fluid_steps;
@@ -105,6 +113,14 @@ struct Cell {
   bool stable() const { return growth() < 1 + 1e-6; }
 };
 
+/// The fluid after some windows from a slip of 1.
+double fluid_after(int windows, const Cell& cell) {
+  State state{};
+  state[u] = state[told] = 1;
+  for (int n = 0; n < windows; ++n) state = cell.advance(state);
+  return state[u];
+}
+
 template <class Visit>
 void for_all_cells(ExchangeScheme scheme, Schedule schedule, Told tell, Visit visit) {
   for (const double held : held_fractions)
@@ -134,6 +150,39 @@ TEST_P(ExchangeStability, ConservativeImplicitIsStableEverywhere) {
 TEST_P(ExchangeStability, SemiImplicitIsStableEverywhere) {
   for_all_cells(ExchangeScheme::semi_implicit, GetParam(),
                 [](const Cell& cell) { EXPECT_TRUE(cell.stable()) << cell.growth(); });
+}
+
+// Newton's drag, and beds of which contacts are seen to hold half and more.
+TEST_P(ExchangeStability, ConservativeImplicitIsStableForAnyDragLawAndSupport) {
+  for (const double exponent : {1.0, 1.5, 2.0})
+    for (const double support : {1.0, 0.7, 0.5})
+      for_all_cells(ExchangeScheme::conservative_implicit, GetParam(), [&](Cell cell) {
+        if (cell.fluid_steps == 4 || (support < 1 && cell.held < 0.9)) return;
+        cell.exponent = cell.counted_exponent = exponent;
+        cell.support = support;
+        EXPECT_TRUE(cell.stable()) << cell.growth() << " n " << exponent << " S " << support;
+      });
+}
+
+// Held in Newton's range, drag much stiffer than the window: with the secant the error keeps its size from
+// window to window, with the other sign, and grows where not all of what holds is seen; the tangent leaves
+// nothing of it.
+TEST(ExchangeTangent, IsWhatTheFluidAnswersTo) {
+  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Told::as_is, 1e4, 0.01, 1};
+  cell.exponent = cell.counted_exponent = 2;
+  EXPECT_LT(std::abs(fluid_after(2, cell)), 1e-7);
+  cell.counted_exponent = 1;
+  EXPECT_NEAR(fluid_after(10, cell), 1, 0.01);
+  EXPECT_NEAR(fluid_after(11, cell), -1, 0.01);
+  cell.support = 0.7;
+  EXPECT_GT(cell.growth(), 1.2);
+}
+
+// A bed so near lift-off that its contacts are seen to hold three tenths: not cured (docs/stability.md).
+TEST(ExchangeSupport, StiffBedsHeldButSeenToLessThanHalfGrow) {
+  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Told::relaxed, 1e4, 1e-2, 1};
+  cell.support = 0.3;
+  EXPECT_GT(cell.growth(), 2);
 }
 
 // Told the fluid as it is, free particles that outweigh it swing with a window of lag.
@@ -217,14 +266,10 @@ TEST_P(ExchangeStability, SemiImplicitDoesNotConserveMomentum) {
   EXPECT_GT(worst, 0.5);
 }
 
-/// The fluid after some windows from a slip of 1 with free particles.
+/// The same with free particles.
 double fluid_after(int windows, Schedule schedule, double drag_factor, double mass_loading) {
-  const Cell cell{
-      ExchangeScheme::conservative_implicit, schedule, Told::relaxed, drag_factor, mass_loading, 0};
-  State state{};
-  state[u] = state[told] = 1;
-  for (int n = 0; n < windows; ++n) state = cell.advance(state);
-  return state[u];
+  return fluid_after(windows, {ExchangeScheme::conservative_implicit, schedule, Told::relaxed, drag_factor,
+                               mass_loading, 0});
 }
 
 TEST_P(ExchangeStability, FreeParticlesAndFluidEndAtTheirCommonVelocity) {
