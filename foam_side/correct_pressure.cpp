@@ -10,6 +10,8 @@
 // zero for any void fraction and any drag.
 
 #include "foam_side/extras.hpp"
+#include "foam_side/flow.hpp"
+#include "foam_side/pressure_gradient.hpp"
 #include "inletOutletFvPatchFields.H"
 #include "transformFvPatchFields.H"
 
@@ -77,6 +79,10 @@ void update_velocity(Flow& flow, const volVectorField& h, const surfaceScalarFie
 }
 
 /// transported: H_f/e of face_drag.hpp.
+///
+/// The pressure gradient of the cell itself is what this leaves to it (pressure_gradient.cpp):
+///
+///   (eps/A) G = F/A - push
 void update_velocity_between_particles(Flow& flow, const volVectorField& h,
                                        const surfaceScalarField& transported) {
   const PressureSystem& system = flow.pressure_system;
@@ -90,10 +96,13 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
     return at(c.push) + e * rAU[cell] / at(*system.response) * pressure;
   });
   const Foam::vectorField& reference = flow.source->reference.field();
+  const Foam::vectorField& force = flow.source->force.field();
   Foam::vectorField& U = flow.U.primitiveFieldRef();
+  Foam::vectorField& own = own_gradient(flow);
   forAll(U, cell) {
     const scalar k = c.stiffness[cell];
     U[cell] = (h[cell] + k * reference[cell] + push[cell]) / (1 + k);
+    own[cell] = (force[cell] - push[cell] / rAU[cell]) / (eps ? (*eps)[cell] : 1);
   }
 }
 

@@ -198,7 +198,7 @@ tmp<scalarField> wanted_porosity_rate(const Flow& flow);
 
 /// Gradient of the total pressure from the face values that drive the momentum equation, Pa/m:
 /// exactly rho g in a fluid at rest.
-Foam::vectorField pressure_gradient(const Flow& flow);
+Foam::vectorField pressure_gradient(const Flow& flow, bool with_laplace_jump = true);
 
 /// Effective (laminar and turbulent) dynamic viscosity, Pa s, one value per cell: of the mixture; of liquid
 /// (0) or gas (1) alone.

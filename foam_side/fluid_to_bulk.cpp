@@ -85,7 +85,7 @@ void FluidToBulk::renew() {
 
 std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   const std::vector<double> weight = sharing_weights(flow_, sharing_);
-  const Foam::vectorField gradient = pressure_gradient(flow_);
+  const Foam::vectorField gradient = pressure_gradient(flow_, forces_.capillary || !flow_.porosity);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
   tmp<Foam::tensorField> velocity_slope, gradient_slope;
   if (cut_.has_profiles()) {

@@ -15,6 +15,9 @@
 // from the pressure, where particles and walls feel it too.
 
 #include "foam_side/flow.hpp"
+#include "noSlipFvPatchVectorField.H"
+#include "transformFvPatchFields.H"
+#include "wallFvPatch.H"
 
 namespace demvof {
 namespace {
@@ -35,12 +38,33 @@ void refuse_change_of_closed_volume(const Flow& flow) {
                          << Foam::exit(Foam::FatalError);
 }
 
+/// Fluid passes the patch, and the case says how much: velocity or flow of the fluid alone, outside the bed.
+bool flow_is_given(const volVectorField& U, const volScalarField& p_rgh, label patch) {
+  const Foam::fvPatchVectorField& velocity = U.boundaryField()[patch];
+  if (velocity.coupled() || !velocity.fixesValue() || p_rgh.boundaryField()[patch].fixesValue()) return false;
+  if (Foam::isA<Foam::wallFvPatch>(velocity.patch()) || Foam::isA<Foam::noSlipFvPatchVectorField>(velocity) ||
+      Foam::isA<Foam::transformFvPatchVectorField>(velocity))
+    return false;
+  const bool constant = velocity.type() == Foam::fixedValueFvPatchVectorField::typeName;
+  return !constant || Foam::gMax(Foam::mag(velocity & velocity.patch().nf())()) > 0;
+}
+
+/// What is given at a patch is the flow there, bed or not; elsewhere the bed goes on as it is inside.
+Foam::wordList boundary_types(const Foam::fvMesh& mesh) {
+  const auto& U = mesh.lookupObject<volVectorField>("U");
+  const auto& p_rgh = mesh.lookupObject<volScalarField>("p_rgh");
+  Foam::wordList types(U.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
+  forAll(types, patch) if (flow_is_given(U, p_rgh, patch)) types[patch] =
+      Foam::fixedValueFvPatchScalarField::typeName;
+  return types;
+}
+
 }  // namespace
 
 Porosity::Porosity(const Foam::fvMesh& mesh)
     : eps(Foam::IOobject("voidFraction", mesh.time().timeName(), mesh, Foam::IOobject::READ_IF_PRESENT,
                          Foam::IOobject::AUTO_WRITE),
-          mesh, dimensionedScalar("one", Foam::dimless, 1), Foam::zeroGradientFvPatchScalarField::typeName),
+          mesh, dimensionedScalar("one", Foam::dimless, 1), boundary_types(mesh)),
       goal("voidFractionGoal", eps()),
       rate(Foam::IOobject("voidFractionRate", mesh.time().timeName(), mesh), mesh,
            dimensionedScalar(Foam::dimless / Foam::dimTime, Foam::Zero)) {}

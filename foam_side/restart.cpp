@@ -15,6 +15,7 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
+#include "foam_side/pressure_gradient.hpp"
 
 namespace demvof {
 namespace {
@@ -63,6 +64,11 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
       components.insert(components.end(), {u.x(), u.y(), u.z()});
     state["velocity_before"] = components;
   }
+  if (const Foam::vectorField* own = find_own_gradient(flow)) {
+    std::vector<double> components;
+    for (const vector& g : *own) components.insert(components.end(), {g.x(), g.y(), g.z()});
+    state["own_gradient"] = components;
+  }
   return state;
 }
 
@@ -80,6 +86,12 @@ void go_on(Flow& flow, const json& state) {
     forAll(flow.porosity->goal, cell) flow.porosity->goal[cell] = goal.at(static_cast<std::size_t>(cell));
   }
   if (flow.ghost) add_ghost_density(flow);
+  if (state.contains("own_gradient")) {
+    const auto saved = state.at("own_gradient").get<std::vector<double>>();
+    Foam::vectorField& own = own_gradient(flow);
+    forAll(own, cell) for (int axis = 0; axis < 3; ++axis) own[cell][axis] =
+        saved.at(static_cast<std::size_t>(3 * cell + axis));
+  }
   if (!state.contains("velocity_before")) return;
   const auto before = state.at("velocity_before").get<std::vector<double>>();
   Foam::vectorField& velocity = flow.U.oldTime().primitiveFieldRef();

@@ -17,6 +17,12 @@ SPACING = DIAMETER * (math.pi / (6 * (1 - EPS)))**(1 / 3)  # of a cubic lattice:
 CELLS, PER_CELL = 8, 2  # bulk cells along the bed, particles per cell and direction
 VELOCITY = 0.05  # superficial, m/s
 WINDOWS = 25
+# The bed goes on beyond the inlet: what is given there is the velocity between the particles.
+VOID_FRACTION = """FoamFile { version 2.0; format ascii; class volScalarField; object voidFraction; }
+dimensions [0 0 0 0 0 0 0];
+internalField uniform 1;
+boundaryField { ".*" { type zeroGradient; } }
+"""
 
 
 def ergun(reynolds):
@@ -36,6 +42,7 @@ def simulate(demvof, reynolds, stiffness, schedule):
                    (1, 1, 2 * CELLS), (1, 1, CELLS), WINDOWS * window, window, sides=sides, gravity=(0, 0, 0),
                    liquid=(DENSITY, VELOCITY * DIAMETER / reynolds), velocity=(0, 0, VELOCITY / EPS),
                    forces=[{"drag": "gidaspow"}, "pressure_gradient"], watched={"z-": "p_rgh"},
+                   extra_files={"fluid/0.orig/voidFraction": VOID_FRACTION},
                    coupling={"schedule": schedule, "averaging": {"kernel": "centre"}})
     across, along = range(PER_CELL), range(CELLS * PER_CELL)
     for place in itertools.product(across, across, along):

@@ -62,12 +62,12 @@ def main():
         runs = list(pool.map(lambda case: simulate(options.demvof, *case), cases))
     runs = [measure(run) for run in runs]
     for run in runs:
-        print(run)
+        print("{thickness} bulk cells, mesh {finer} times finer, {kernel}, {schedule}: {ratio:.5f}".format(**run))
     for finer, bound in ((1, 0.01), (4, 0.002)):
         some = [run for run in runs if run["finer"] == finer]
         mesh = "mesh as fine as the bulk grid" if finer == 1 else f"mesh {finer} times finer"
         record.at_most(f"{mesh}: force on the bed against dp A, worst", max(abs(r["ratio"] - 1) for r in some), bound)
-        record.at_most(f"{mesh}: change of the pressure drop in the last fluid step", max(r["settled"] for r in some), 1e-6)
+        record.note(f"{mesh}: change of the pressure drop in the last fluid step, worst", max(r["settled"] for r in some))
     raise SystemExit(record.write())
 
 
