@@ -242,7 +242,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   const Vec3 gravity = dem_.gravity();
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
-  if (history_) history_->begin_step();
+  // Spins begin with the torques of set-up, and what a particle remembers is of whole steps.
+  FluidTorque* const torque = torque_ && !half_step_ ? &*torque_ : nullptr;
+  HistoryForce* const history = history_ && !half_step_ ? &*history_ : nullptr;
+  if (history) history->begin_step();
   WindowImpulses sums;  // of this step alone: fewer numbers in one sum, less round-off
   for (int i = 0; i < particles.count; ++i) {
     CarriedRow& row = carried_by(rows, i);
@@ -261,7 +264,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     }
     store(external[i], moves ? constant : Vec3{});
     if (row.waits()) {
-      if (torque_) torque_->act(particles, i, {});
+      if (torque) torque->act(particles, i, {});
       continue;
     }
 
@@ -290,11 +293,11 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
         part.added = added_mass(row, k, radius);
         part.across = share * (lift(fluid, gradients, 2 * radius, part.slip) +
                                spin_lift(fluid, gradients, 2 * radius, vec3(particles.spin[i]), part.slip));
-        if (torque_)
-          torque_->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity, gradients.vorticity);
-        if (history_ && k == 0) {
+        if (torque)
+          torque->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity, gradients.vorticity);
+        if (history && k == 0) {
           const HistoryForce::Memory past =
-              history_->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
+              history->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
           part.across += share * past.force;
           part.added += share * past.inertia;
         }
@@ -309,8 +312,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       added += part.added;
       pull += part.beta * part.slip;
     }
-    if (torque_) torque_->act(particles, i, grip);
-    if (history_ && !row.feels(0)) history_->forget(i);
+    if (torque) torque->act(particles, i, grip);
+    if (history && !row.feels(0)) history->forget(i);
     Vec3 drag = pull, acceleration;
     if (moves) {
       const Vec3 others =
@@ -326,7 +329,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
       if constexpr (with_gradients) {
         CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
-        if (history_ && k == 0) history_->remember(i, gradients.acceleration - acceleration);
+        if (history && k == 0) history->remember(i, gradients.acceleration - acceleration);
         const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
         gradients.other_impulse += step * other;
         of_fluid += other;
