@@ -37,9 +37,15 @@ class Bed(unittest.TestCase):
         options = [*options, "--set", f"fluid.ranks={ranks[0]}"]
         settings = [word for word in options if word != "--continue"]
         done = subprocess.run(
+<<<<<<< HEAD
             [MPIRUN, "--timeout", "100", "-np", str(sum(ranks)), PAIR,
              "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,
              "+", "-np", str(ranks[1]), MOCK, str(self.case_file), *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
+=======
+            [MPIRUN, "--timeout", "100", "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out),
+             *options, ":", "-np", str(ranks[1]), MOCK, str(self.case_file),
+             *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
+>>>>>>> acf2426 (Line length)
              "--solid-fraction", str(FRACTION), *map(str, bed), *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -115,7 +121,8 @@ class Bed(unittest.TestCase):
             parts = self.run_bed(f"{schedule}_parts", *setting, "--continue", bed=bed)
             self.assertEqual(parts.results["continued_from"], 5 * WINDOW)
             self.compare(whole, parts, 1e-7)
-            self.assertEqual(json.loads((parts.folder / "earlier" / "results_1.json").read_text())["steps"]["windows"], 5)
+            earlier = json.loads((parts.folder / "earlier" / "results_1.json").read_text())
+            self.assertEqual(earlier["steps"]["windows"], 5)
 
 
 if __name__ == "__main__":

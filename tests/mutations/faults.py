@@ -97,6 +97,11 @@ FAULTS = [
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
     ("foam_side/fluid_books.cpp", "(1 - (*eps)[cell]) * volume[cell] * gradient[cell]",
      "(*eps)[cell] * volume[cell] * gradient[cell]", BED),
+<<<<<<< HEAD
     ("foam_side/porosity.cpp", "eps - porosity.goal.field()", "eps - porosity.eps.primitiveField()", BED),
+=======
+    ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
+     "(eps - porosity.eps.primitiveField()) / (flow.clock", BED),
+>>>>>>> acf2426 (Line length)
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
 ]
