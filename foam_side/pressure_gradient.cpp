@@ -3,14 +3,14 @@
 //
 //   grad p = G + (sigma kappa grad alpha) + rho g,   G = grad p_rgh + g.x grad rho - sigma kappa grad alpha
 //
-// The part of surface tension, the Laplace jump, is told only to particles that feel the capillary force against it
-// (forces: capillary) or that displace no fluid: with a void fraction the fluid gets eps of the capillary force, and the
-// particles' share cancels their share of the jump. G and surface tension come from the face values that drive the momentum equation: G is zero in a fluid at
-// rest. Where void fraction or drag jump from one cell to the next the pressure has a kink at the face
-// between them (face_drag.hpp), and each cell is pushed by the gradient of its own side. That one is told:
-// with the gradient across the face instead, fluid and particles together lose (1 - eps)/(2 N) of the force
-// on a bed N cells thick (tests/verification/pair/thin_bed.py). Before the first step the faces' gradient has
-// to do.
+// The part of surface tension, the Laplace jump, is told only to particles that feel the capillary force
+// against it (forces: capillary) or that displace no fluid: with a void fraction the fluid gets eps of the
+// capillary force, and the particles' share cancels their share of the jump. G and surface tension come from
+// the face values that drive the momentum equation: G is zero in a fluid at rest. Where void fraction or drag
+// jump from one cell to the next the pressure has a kink at the face between them (face_drag.hpp), and each
+// cell is pushed by the gradient of its own side. That one is told: with the gradient across the face
+// instead, fluid and particles together lose (1 - eps)/(2 N) of the force on a bed N cells thick
+// (tests/verification/pair/thin_bed.py). Before the first step the faces' gradient has to do.
 
 #include "foam_side/pressure_gradient.hpp"
 

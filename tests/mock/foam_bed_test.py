@@ -37,15 +37,10 @@ class Bed(unittest.TestCase):
         options = [*options, "--set", f"fluid.ranks={ranks[0]}"]
         settings = [word for word in options if word != "--continue"]
         done = subprocess.run(
-<<<<<<< HEAD
             [MPIRUN, "--timeout", "100", "-np", str(sum(ranks)), PAIR,
              "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,
-             "+", "-np", str(ranks[1]), MOCK, str(self.case_file), *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
-=======
-            [MPIRUN, "--timeout", "100", "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out),
-             *options, ":", "-np", str(ranks[1]), MOCK, str(self.case_file),
+             "+", "-np", str(ranks[1]), MOCK, str(self.case_file),
              *([] if "--bed" in bed else ["--bed", *map(str, BED)]),
->>>>>>> acf2426 (Line length)
              "--solid-fraction", str(FRACTION), *map(str, bed), *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout)

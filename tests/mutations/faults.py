@@ -36,8 +36,8 @@ FAULTS = [
     # ---- exchange
     ("coupler/exchange/momentum_exchange.hpp", "particles.response_weighted_velocity / particles.drag_response",
      "particles.response_weighted_velocity / particles.drag_factor", {**EXCHANGE, **BED}),
-    ("coupler/exchange/momentum_exchange.hpp", "? drag_factor_now / drag_factor_then : 1.0",
-     "? drag_factor_then / drag_factor_now : 1.0", {**EXCHANGE, **BED}),
+    ("coupler/exchange/momentum_exchange.hpp", "? solid_volume_now / solid_volume_then : 1.0",
+     "? solid_volume_then / solid_volume_now : 1.0", {**EXCHANGE, **BED}),
     ("coupler/exchange/relaxation.hpp", "4 * std::max(solid - following, 0.0)",
      "0 * std::max(solid - following, 0.0)", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "? (1 + gain) / 1.2 :", "? (1 + gain) / 2.4 :", EXCHANGE),
@@ -68,9 +68,9 @@ FAULTS = [
      "beyond_ = -1 / std::expm1(log_row)", AVERAGING),
     ("coupler/transfer/diffusion.cpp", "0.25 * std::pow(bandwidth / grid.spacing()[axis], 2)",
      "0.5 * std::pow(bandwidth / grid.spacing()[axis], 2)", AVERAGING),
-    ("coupler/transfer/averaging.cpp", "sample.left_over_rate = fluid.left_over / drag_factor",
+    ("coupler/transfer/averaging_in_fluid.cpp", "sample.left_over_rate = fluid.left_over / drag_factor",
      "sample.left_over_rate = fluid.left_over", AVERAGING),
-    ("coupler/transfer/averaging.cpp", "mean.pressure_gradient / mean.fluid",
+    ("coupler/transfer/averaging_in_fluid.cpp", "mean.pressure_gradient / mean.fluid",
      "mean.velocity / mean.fluid", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - begin] *= open_share.values[i]",
      "limit[open_share.cells[i] - begin] *= 1", AVERAGING),
@@ -82,12 +82,12 @@ FAULTS = [
     ("coupler/transfer/tetrahedron.cpp", "(plane - a[axis]) / (b[axis] - a[axis])",
      "(plane - b[axis]) / (b[axis] - a[axis])", MAPPING),
     # ---- forces on the particles
-    ("dem_side/forces.cpp", "carried.pressure_force = -volume * here.pressure_gradient",
-     "carried.pressure_force = volume * here.pressure_gradient", FORCES),
-    ("dem_side/forces.cpp", "carried.left_over_force = beta / window * here.left_over_rate",
-     "carried.left_over_force = beta * here.left_over_rate", FORCES),
-    ("dem_side/forces.cpp", "sums.pressure += fluid.pressure_force;",
-     "sums.pressure += 0 * fluid.pressure_force;", FORCES),
+    ("dem_side/forces.cpp", "fluid.pressure_force = -volume * here.pressure_gradient",
+     "fluid.pressure_force = volume * here.pressure_gradient", FORCES),
+    ("dem_side/forces.cpp", "fluid.left_over_force = beta / window * here.left_over_rate",
+     "fluid.left_over_force = beta * here.left_over_rate", FORCES),
+    ("dem_side/forces.cpp", "sums.pressure += share * fluid.pressure_force;",
+     "sums.pressure += fluid.pressure_force;", FORCES),
     ("dem_side/forces.cpp", "gradients.other_impulse += step * other;", "", FORCES),
     ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
      "store(external[i], given + steady);", FORCES),
@@ -97,11 +97,7 @@ FAULTS = [
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
     ("foam_side/fluid_books.cpp", "(1 - (*eps)[cell]) * volume[cell] * gradient[cell]",
      "(*eps)[cell] * volume[cell] * gradient[cell]", BED),
-<<<<<<< HEAD
-    ("foam_side/porosity.cpp", "eps - porosity.goal.field()", "eps - porosity.eps.primitiveField()", BED),
-=======
     ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
      "(eps - porosity.eps.primitiveField()) / (flow.clock", BED),
->>>>>>> acf2426 (Line length)
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
 ]
