@@ -72,10 +72,10 @@ Measured measure(const FoamCase& fluid, int n, Mapping mapping) {
     particles.cells.push_back(cell);
     particles.values.push_back(here);
   }
-  bridge.take(particles);
+  bridge.take({particles});
 
   Measured measured;
-  const CellValues<BulkFluid> told = bridge.bulk_fluid();
+  const CellValues<BulkFluid> told = bridge.bulk_fluids().front();
   int count = 0;
   for (std::size_t i = 0; i < told.cells.size(); ++i) {
     const auto ijk = grid.ijk(told.cells[i]);
