@@ -7,13 +7,15 @@ import sys
 import numpy
 
 from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, particle_states, scratch
+from box_fields import output_times, vector_field
 from record import Record
 
 DEMVOF = sys.argv[1]
 RECORD = Record("boundaries", "Boundaries",
                 "Particles and fluid meet the same ends of the domain: a particle that crosses a periodic end moves "
                 "like one that does not; beads come to rest on a slanted wall that cuts bulk cells; particles of two "
-                "types and sizes in one bed; frozen particles in a through-flow; particles that leave with the fluid "
+                "types and sizes in one bed; frozen particles in a through-flow; a bed on an inlet of given velocity or flow; "
+                "particles that leave with the fluid "
                 "are counted as left, not as lost; meshes and scripts that disagree are refused.",
                 "tests/Alltest --verification -- -R pair.boundaries")
 
@@ -199,6 +201,26 @@ def pressure_upstream(run):
     return float(values.reshape(4, 4, 16)[:, :, 0].mean())
 
 
+def bed_on_the_inlet():
+    """What the user gives at a patch is the flow there, though a bed of held beads stands on it."""
+    edge, speed = 0.012, 0.02  # superficial velocity, m/s
+    for name, inlet in (("velocity", (0, 0, speed)),
+                        ("flow rate", f"flowRateInletVelocity; volumetricFlowRate {speed * edge**2:.17g}; "
+                                      "value uniform (0 0 0)")):
+        case = BoxCase(scratch(f"boundaries/bed_on_the_inlet_{name.split()[0]}"), upper=(edge, edge, 0.036),
+                       fine=(2, 2, 12), bulk=(2, 2, 6), end_time=0.04, window=2e-3, gravity=(0, 0, 0), tolerance=1e-12,
+                       forces=[{"drag": "gidaspow"}, "pressure_gradient"])
+        case.sides = {side: Slip() for side in case.sides}
+        case.sides.update({"z-": Inlet(inlet), "z+": Outlet()})
+        for i in range(5):
+            for j in range(5):
+                for k in range(7):
+                    case.particles.append(Particle([2.4e-3 * (n + 0.5) for n in (i, j, k)], 2e-3, 2500, held=True))
+        run = case.run(DEMVOF)
+        out = vector_field(run, output_times(run)[-1], "U", case.fine)[:, :, -1, 2].mean()  # clear water there
+        RECORD.at_most(f"bed on the inlet, given {name}: outflow against what is given", abs(out / speed - 1), 5e-6)
+
+
 def out_with_the_stream():
     """Beads drift out of the channel: through a counting and deleting outlet, and without one."""
     for name, outlet in (("left", True), ("lost", False)):
@@ -225,7 +247,7 @@ def out_with_the_stream():
                        run.number("conservation.solid_volume"), 1e-12)
 
 
-TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, out_with_the_stream]
+TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream]
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()

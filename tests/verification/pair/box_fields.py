@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scalar cell fields of a BoxCase run on one fluid rank, as arrays [x, y, z]."""
+"""Cell fields of a BoxCase run on one fluid rank, as arrays [x, y, z] (scalars) and [x, y, z, component]."""
 import re
 
 import numpy
@@ -21,6 +21,14 @@ def cell_field(run, time, name, fine):
     count = int(head.group(1))
     values = numpy.frombuffer(data, dtype="<f8", count=count, offset=head.end())
     return values.reshape(tuple(reversed(fine))).transpose()
+
+
+def vector_field(run, time, name, fine):
+    """As cell_field, of a field that is not uniform."""
+    data = (run.folder / "fluid" / time / name).read_bytes()
+    head = re.search(rb"internalField\s+nonuniform\s+List<vector>\s+(\d+)\s*\(", data)
+    values = numpy.frombuffer(data, dtype="<f8", count=3 * int(head.group(1)), offset=head.end())
+    return values.reshape((*reversed(fine), 3)).transpose(2, 1, 0, 3)
 
 
 def surface_height(column, spacing):
