@@ -20,6 +20,7 @@ class Bridge {
 
   const BulkCut& cut() const { return cut_; }
   SurfaceToBulk& surface_to_bulk() { return surface_; }
+  const SurfaceToBulk& surface_to_bulk() const { return surface_; }
   const FluidToBulk& fluid_to_bulk() const { return fluid_to_bulk_; }
   ParticlesToFine& particles_to_fine() { return particles_to_fine_; }
 

@@ -195,7 +195,10 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
                         {"told", as_json(fluid.told)}});
-  const json state = {{"flow", flow_state(flow, forces)}, {"exchange", exchange}, {"books", record.books()}};
+  const json state = {{"flow", flow_state(flow, forces)},
+                      {"exchange", exchange},
+                      {"surface", as_json(bridge.surface_to_bulk().told())},
+                      {"books", record.books()}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
@@ -244,6 +247,16 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
     return name == own || name.rfind(fields, 0) == 0 || (world.rank() == 0 && name == "history.csv");
   });
   return point;
+}
+
+CellValues<BulkSurface> read_told_surface(const fs::path& run, long window) {
+  const fs::path path = file_of_rank(run, window);
+  try {
+    std::ifstream stream(path, std::ios::binary);
+    return cell_values<BulkSurface>(json::from_cbor(stream).at("surface"));
+  } catch (const json::exception& error) {
+    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+  }
 }
 
 void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge, RunRecord& record,

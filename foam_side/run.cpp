@@ -99,9 +99,12 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   run_stage().set("first void fraction");
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
   ParticlesToFine& to_fine = bridge.particles_to_fine();
-  FluidEnd::Start first =
-      link.start(bridge.cut().open_shares(),
-                 flow.scene.two_fluids ? bridge.surface_to_bulk().news() : CellValues<BulkSurface>{});
+  SurfaceToBulk& surface = bridge.surface_to_bulk();
+  if (flow.scene.two_fluids && start)
+    surface.go_on_from(read_told_surface(options.out, start->window));
+  else if (flow.scene.two_fluids)
+    surface.news();  // all of it
+  FluidEnd::Start first = link.start(bridge.cut().open_shares(), surface.told());
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);

@@ -77,24 +77,29 @@ CellValues<BulkSurface> SurfaceToBulk::news() {
     sum.moment += piece.volume * (piece.centroid - grid.cell_centre(grid.ijk(cells[piece.slot])));
   }
   const CellValues<SurfaceSums> owned = cut_.cells().sum_to_owners(sums);
-  CellValues<BulkSurface> news;
-  CellValues<double> cut;
+  CellValues<BulkSurface> news, now;
   for (std::size_t i = 0; i < owned.cells.size(); ++i) {
     if (!(owned.values[i].volume > 0)) continue;
     const BulkSurface surface = plane(owned.values[i], grid.spacing());
-    const bool now = demvof::is_cut(surface);
-    if (now) {
-      cut.cells.push_back(owned.cells[i]);
-      cut.values.push_back(surface.liquid_fraction);
+    const bool wet = surface.liquid_fraction > least_seen_share;
+    if (wet) {
+      now.cells.push_back(owned.cells[i]);
+      now.values.push_back(surface);
     }
-    const bool all = first_ && surface.liquid_fraction > least_seen_share;
-    if (!now && !all && !find(told_, owned.cells[i])) continue;
+    const BulkSurface* before = find(told_, owned.cells[i]);
+    const bool was_cut = before && demvof::is_cut(*before);
+    if (first_ ? !wet : !demvof::is_cut(surface) && !was_cut && wet == (before != nullptr)) continue;
     news.cells.push_back(owned.cells[i]);
     news.values.push_back(surface);
   }
-  told_ = std::move(cut);
+  told_ = std::move(now);
   first_ = false;
   return news;
+}
+
+void SurfaceToBulk::go_on_from(CellValues<BulkSurface> told) {
+  told_ = std::move(told);
+  first_ = false;
 }
 
 }  // namespace demvof

@@ -36,11 +36,16 @@ class SurfaceToBulk {
   /// no more. The first time all cells that hold liquid.
   CellValues<BulkSurface> news();
 
+  /// What the particles know after that: all cells that hold liquid, owned by this rank. For a run that goes
+  /// on, which begins with it.
+  const CellValues<BulkSurface>& told() const { return told_; }
+  void go_on_from(CellValues<BulkSurface> told);
+
  private:
   const Flow& flow_;
   const BulkCut& cut_;
-  std::vector<double> liquid_;  // of the fluid in each touched bulk cell, -
-  CellValues<double> told_;     // cells owned by this rank that the surface cut at the last call
+  std::vector<double> liquid_;    // of the fluid in each touched bulk cell, -
+  CellValues<BulkSurface> told_;  // cells owned by this rank that held liquid at the last call
   bool first_ = true;
 };
 
