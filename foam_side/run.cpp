@@ -72,6 +72,8 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
   end_step(flow);
+  if (bridge && flow.scene.two_fluids)
+    bridge->collect_impulse();  // before the surface moves on to other fine cells
   return true;
 }
 

@@ -50,12 +50,6 @@ def with_time_scheme():
     return replaced(box("time_scheme").write(), "fluid/system/fvSchemes", "Euler", "CrankNicolson 0.9")
 
 
-def with_start_time():
-    case_file = replaced(box("start_time").write(), "fluid/system/controlDict", "startTime 0", "startTime 0.5")
-    shutil.copytree(case_file.parent / "fluid" / "0.orig", case_file.parent / "fluid" / "0.5")
-    return case_file
-
-
 def with_zone():
     case_file = box("rotating_zone", extra_files={"fluid/constant/MRFProperties": ROTATING}).write()
     return replaced(case_file, "fluid/system/blockMeshDict", "hex (0 1 2 3 4 5 6 7)", "hex (0 1 2 3 4 5 6 7) z")
@@ -85,7 +79,6 @@ TRIALS = {
                                  ["dynamicRefineFvMesh", "fluid.refinement"]),
     "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
     "time_scheme": (with_time_scheme, 2, ["ddtSchemes", "with particles Euler only"]),
-    "start_time": (with_start_time, 2, ["startTime", "rename the folder"]),
     "slope_along_a_periodic_direction": (with_slope, 0, ["along x, where the mesh is periodic", "meanVelocityForce"]),
     "library_in_controlDict": (with_library, 0, []),
 }

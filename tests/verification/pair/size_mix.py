@@ -28,7 +28,7 @@ def cell(corner):
 
 
 def main():
-    case = BoxCase(scratch("size_mix"), upper=(2 * SIDE,) * 3, fine=(2, 2, 2), bulk=(2, 2, 2), end_time=1e-6, window=1e-6,
+    case = BoxCase(scratch("size_mix"), upper=(2 * SIDE,) * 3, fine=(2, 2, 2), bulk=(2, 2, 2), end_time=2e-6, window=1e-6,
                    sides={side: Cyclic() for side in SIDES}, gravity=(0, 0, 0), liquid=(1, 1), velocity=(1e-3, 0, 0),
                    forces=[{"drag": "beetstra"}], coupling={"averaging": {"kernel": "centre"}})
     case.particles = [p for i in range(2) for j in range(2) for k in range(2) for p in cell((i, j, k))]
