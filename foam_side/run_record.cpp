@@ -9,6 +9,7 @@
 
 #include "coupler/config/quantities.hpp"
 #include "coupler/config/read_case.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/output/machine.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/verdict.hpp"
@@ -315,7 +316,8 @@ RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   if (!writes_) return status;
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   RunResults& results = shared_->results;
-  const Verdict verdict = judge(results, flow.clock.largest_courant);
+  const Verdict verdict =
+      judge(results, flow.clock.largest_courant, pays_drag_impulse(parameters_.coupling.exchange));
   results.warnings = warnings(flow);
   results.warnings.insert(results.warnings.begin(), verdict.warnings.begin(), verdict.warnings.end());
   results.status = verdict.failure ? RunStatus::failed : status;

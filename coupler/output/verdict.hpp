@@ -18,7 +18,8 @@ struct Verdict {
 };
 
 /// At the end of a run. largest_courant: of any step.
-Verdict judge(const RunResults& results, double largest_courant);
+/// exchange_closes: the exchange scheme gives the fluid what the particles got (not semi_implicit).
+Verdict judge(const RunResults& results, double largest_courant, bool exchange_closes = true);
 
 /// In the run: the first of the recorded quantities that is not a number, and what to try. Empty: all are.
 std::string find_nonsense(const std::vector<std::pair<std::string, double>>& quantities);
