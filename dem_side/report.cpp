@@ -13,7 +13,7 @@ namespace {
 
 // Sums over particles and cells; plain doubles, so that one reduction does for all of them.
 struct Sums {
-  double count = 0, waiting_for_fluid = 0, outside_bulk_grid = 0;
+  double count = 0, waiting_for_fluid = 0, outside_fluid = 0;
   double mass = 0, solid_volume = 0, solid_volume_bulk = 0, replaced_volume = 0;
   double kinetic_energy = 0, potential_energy = 0;
   WindowImpulses impulses;
@@ -81,7 +81,7 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
     const double mass = particles.mass[i];
     const Vec3 position = vec3(particles.position[i]), velocity = vec3(particles.velocity[i]);
     sums.mass += mass;
-    sums.solid_volume += sphere_volume(particles.radius[i]);
+    if (!averaging.outside(i)) sums.solid_volume += sphere_volume(particles.radius[i]);
     sums.kinetic_energy += 0.5 * mass * dot(velocity, velocity);
     sums.potential_energy -= mass * dot(gravity, position);
     for (int axis = 0; axis < 3; ++axis)
@@ -95,8 +95,8 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
     }
   sums.replaced_volume = replaced_volume;
   sums.impulses = forces.impulses();
+  sums.outside_fluid = static_cast<double>(averaging.outside());
   sums.waiting_for_fluid = static_cast<double>(forces.waiting_for_fluid());
-  sums.outside_bulk_grid = static_cast<double>(averaging.outside());
   sums.unplaced_left_over = averaging.unplaced_left_over();
   sums.peak_memory_bytes = static_cast<double>(peak_memory_bytes());
   reduce(&sums.count, sizeof(Sums), MPI_SUM, dem_.world());
@@ -108,8 +108,9 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
   report.inserted = static_cast<double>(inserted_);
   report.left = static_cast<double>(left_);
   report.lost = static_cast<double>(lost_);
-  report.waiting_for_fluid = sums.waiting_for_fluid;
-  report.outside_bulk_grid = sums.outside_bulk_grid;
+  report.waiting_for_fluid = std::max(sums.waiting_for_fluid - outside_before_, 0.0);
+  report.outside_fluid = sums.outside_fluid;
+  outside_before_ = sums.outside_fluid;
   report.mass = sums.mass;
   report.solid_volume = sums.solid_volume;
   report.solid_volume_bulk = sums.solid_volume_bulk;

@@ -37,6 +37,7 @@ class Report {
   void count_changes(long now);
 
   const Dem& dem_;
+  double outside_before_ = 0;                // particles outside the fluid at the end of the window before
   long count_ = 0;                           // at the end of the last window
   long inserted_before_ = 0;                 // by the script's insertions, before the coupled run
   long left_before_ = 0;                     // through the script's outlets, before the coupled run

@@ -125,6 +125,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
 
   run_stage().set("first exchange");
   averaging.set_open_shares(link.open_shares());
+  averaging.set_walls(link.walls());
   if (plan.fluids > 1) averaging.see(link.surface());
   const auto surface_at_particles = [&] {
     return averaging.surface_at(positions(dem.particles()), radii(dem.particles()));

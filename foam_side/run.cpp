@@ -22,6 +22,7 @@
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
 #include "foam_side/extras.hpp"
+#include "foam_side/find_walls.hpp"
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
@@ -106,7 +107,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     surface.go_on_from(read_told_surface(options.out, start->window));
   else if (flow.scene.two_fluids)
     surface.news();  // all of it
-  FluidEnd::Start first = link.start(bridge.cut().open_shares(), surface.told());
+  const CellValues<BulkWalls> walls = find_walls(flow.mesh, grid, link.mine(), world.comm());
+  FluidEnd::Start first = link.start(bridge.cut().open_shares(), walls, surface.told());
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);

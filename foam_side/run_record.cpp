@@ -153,6 +153,7 @@ void RunRecord::enter(RunResults& results, const ParticleReport& particles) {
   results.particles.inserted = std::lround(particles.inserted);
   results.particles.left = std::lround(particles.left);
   results.particles.lost = std::lround(particles.lost);
+  results.particles.outside_fluid = std::lround(particles.outside_fluid);
   results.steps.particles += std::lround(particles.steps);
   for (std::size_t i = 0; i < results.closures.size(); ++i) {
     results.closures[i].evaluations += std::lround(particles.closures.at(i).evaluations);
@@ -162,6 +163,7 @@ void RunRecord::enter(RunResults& results, const ParticleReport& particles) {
   limits_.relieved_volume += particles.relieved_volume;
   limits_.unplaced_volume = std::max(limits_.unplaced_volume, particles.unplaced_volume);
   limits_.waiting_particles += std::lround(particles.waiting_for_fluid);
+  limits_.outside_particles += std::lround(particles.outside_fluid);
   limits_.unplaced_left_over += norm(particles.left_over_unplaced);
   last_particles_ = particles;
 }
@@ -288,6 +290,10 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));
+  if (limits_.outside_particles > 0)
+    lines.push_back(fmt::format(
+        "particles were outside the fluid's mesh {} times: there they displace nothing and feel nothing",
+        limits_.outside_particles));
   if (books_->gone_impulse() > 0)
     lines.push_back(fmt::format("impulse of {:.3g} N s went with particles in the window in which they left",
                                 books_->gone_impulse()));

@@ -90,7 +90,8 @@ class RunRecord {
 
   /// Limits that acted, over the windows so far.
   struct Limits {
-    long relieved_cells = 0, waiting_particles = 0, negative_cells = 0, crossing_windows = 0;
+    long relieved_cells = 0, waiting_particles = 0, outside_particles = 0, negative_cells = 0;
+    long crossing_windows = 0;
     double drop_resolution = 1e9;                     // fewest cells per diameter
     double relieved_volume = 0, unplaced_volume = 0;  // m3
     double unplaced_left_over = 0;                    // N s

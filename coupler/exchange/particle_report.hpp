@@ -12,8 +12,8 @@ namespace demvof {
 struct ParticleReport {
   // Particles now; put in, taken out by the script, and gone otherwise since the start of the coupled run.
   double count = 0, inserted = 0, left = 0, lost = 0;
-  double waiting_for_fluid = 0;  // particles that felt no fluid in this window
-  double outside_bulk_grid = 0;  // particles beyond its walls; they count in its nearest cells
+  double waiting_for_fluid = 0;  // particles inside the mesh that felt no fluid in this window
+  double outside_fluid = 0;      // particles outside the fluid's mesh: they displace nothing and feel nothing
 
   double mass = 0, solid_volume = 0;  // kg, m3
   double solid_volume_bulk = 0;       // summed over the bulk grid, m3

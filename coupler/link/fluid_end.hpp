@@ -5,6 +5,7 @@
 
 #include "coupler/exchange/particle_report.hpp"
 #include "coupler/link/pair_end.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -17,13 +18,14 @@ class FluidEnd : public PairEnd {
   void send_plan(const WindowPlan& plan);
 
   /// open_shares: the mesh's share in those bulk cells of this rank that it does not fill.
-  /// surface: all cells that hold liquid, with two fluids. Returned: the
-  /// particles before the first window.
+  /// walls: faces of the bulk grid that the fluid does not pass. surface: all cells that hold liquid, with
+  /// two fluids. Returned: the particles before the first window.
   struct Start {
     std::vector<CellValues<BulkParticles>> particles;  // by fluid
     ParticleReport report;
   };
-  Start start(const CellValues<double>& open_shares, const CellValues<BulkSurface>& surface = {});
+  Start start(const CellValues<double>& open_shares, const CellValues<BulkWalls>& walls = {},
+              const CellValues<BulkSurface>& surface = {});
 
   /// One window: tells the particles the fluid, lets the fluid advance and takes what the particles did, in
   /// the order of the plan's schedule.

@@ -34,9 +34,10 @@ const WindowPlan& ParticleEnd::receive_plan() {
   return plan_;
 }
 
-FluidEnd::Start FluidEnd::start(const CellValues<double>& open_shares,
+FluidEnd::Start FluidEnd::start(const CellValues<double>& open_shares, const CellValues<BulkWalls>& walls,
                                 const CellValues<BulkSurface>& surface) {
   link_.send(open_shares);
+  link_.send(walls);
   if (plan_.fluids > 1) link_.send(surface);
   Start start;
   for (int k = 0; k < plan_.fluids; ++k) start.particles.push_back(link_.receive<BulkParticles>());

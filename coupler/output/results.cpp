@@ -88,6 +88,7 @@ std::string results_json(const RunResults& r) {
                        {"inserted", r.particles.inserted},
                        {"left", r.particles.left},
                        {"lost", r.particles.lost},
+                       {"outside_fluid", r.particles.outside_fluid},
                        {"final", r.particles.final}};
   json["relaxation"] = {{"smallest", r.relaxation.smallest}, {"cells", r.relaxation.cells}};
   json["exchanged"] = {{"bytes", r.exchanged.bytes}, {"cells", r.exchanged.cells}};

@@ -55,7 +55,7 @@ struct RunResults {
     double imbalance = 1;   // with it: most cells on a rank over the mean, worst of the run
   } cells;
   struct {
-    long initial = 0, inserted = 0, left = 0, lost = 0, final = 0;
+    long initial = 0, inserted = 0, left = 0, lost = 0, outside_fluid = 0, final = 0;
   } particles;
   struct {
     double smallest = 1;  // relaxation factor of what the particles were told of the fluid (relaxation.hpp)

@@ -85,12 +85,28 @@ Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& 
   fluids_.emplace_back(world_, grid_, partition_, parameters_);
 }
 
+bool Averaging::on_any_rank(bool here) const {
+  int any = here ? 1 : 0;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
+  return any > 0;
+}
+
 void Averaging::set_open_shares(CellValues<double> open_share) {
   open_share_ = std::move(open_share);
+  all_open_ = !on_any_rank(!open_share_.cells.empty());
+}
+
+void Averaging::set_walls(CellValues<BulkWalls> walls) {
+  walls_ = std::move(walls);
+  walled_ = on_any_rank(!walls_.cells.empty());
+  for (AveragingInFluid& fluid : fluids_) fluid.set_walls(walls_);
 }
 
 void Averaging::see(const CellValues<BulkSurface>& news) {
-  if (fluids() == 1) fluids_.emplace_back(world_, grid_, partition_, parameters_);
+  if (fluids() == 1) {
+    fluids_.emplace_back(world_, grid_, partition_, parameters_);
+    fluids_.back().set_walls(walls_);
+  }
   surface_ = brought_up_to_date(surface_, news);
 }
 
@@ -116,12 +132,26 @@ void Averaging::set_shares() {
 }
 
 void Averaging::weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
-  outside_ = std::count_if(positions.begin(), positions.end(),
-                           [&](const Vec3& position) { return beyond_a_wall(grid_, position); });
   weights_ = kernel_weights(grid_, parameters_, positions, radii, std::move(weights_));  // reuses its memory
   touched_.emplace(world_, partition_, weights_.cells);
+  if (walled_) mirror_at_walls(grid_, touched_->fetch_from_owners(walls_, BulkWalls{}), positions, weights_);
+  find_outside(positions);
   set_shares();
-  for (AveragingInFluid& fluid : fluids_) fluid.weigh(weights_, *touched_);
+  for (AveragingInFluid& fluid : fluids_) fluid.weigh(weights_, *touched_, outside_, radii);
+}
+
+void Averaging::find_outside(const std::vector<Vec3>& positions) {
+  outside_.assign(positions.size(), 0);
+  std::vector<double> share;
+  if (!all_open_) share = touched_->fetch_from_owners(open_share_, 1.0);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    outside_[i] = beyond_a_wall(grid_, positions[i]);
+    if (all_open_ || outside_[i]) continue;
+    const CellId own = grid_.id(grid_.locate(positions[i]));
+    const auto place = std::lower_bound(weights_.cells.begin(), weights_.cells.end(), own);
+    outside_[i] =
+        place != weights_.cells.end() && *place == own && share[place - weights_.cells.begin()] == 0;
+  }
 }
 
 std::vector<SeenSurface> Averaging::surface_at(const std::vector<Vec3>& positions,

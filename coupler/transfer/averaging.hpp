@@ -3,12 +3,14 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "coupler/transfer/averaging_in_fluid.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
 #include "coupler/transfer/bulk_surface.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -34,6 +36,8 @@ class Averaging {
   /// Cells of this rank that the fluid mesh does not fill, with the fluid's share in their volume: particles
   /// count in that share only, from the next weigh() on.
   void set_open_shares(CellValues<double> open_share);
+  /// Faces of this rank's cells that the fluid does not pass: kernels do not reach through them.
+  void set_walls(CellValues<BulkWalls> walls);
   /// There are two fluids from here on. news: of this rank's cells, those that the surface cuts now and those
   /// that it has left since; the first time all that hold liquid. Weights follow in the next weigh().
   void see(const CellValues<BulkSurface>& news);
@@ -48,8 +52,10 @@ class Averaging {
   AveragingInFluid& in(int fluid) { return fluids_[fluid]; }
   const AveragingInFluid& in(int fluid) const { return fluids_[fluid]; }
 
-  /// Local particles that lie outside the bulk grid: they count in its nearest cells.
-  long outside() const { return outside_; }
+  /// True for a local particle whose centre is outside the fluid's mesh: beyond the bulk grid, or in a cell
+  /// that the mesh leaves empty. There is no fluid: it displaces nothing and feels nothing.
+  bool outside(int particle) const { return outside_[particle] != 0; }
+  long outside() const { return std::count(outside_.begin(), outside_.end(), 1); }
   /// Of the last deposit, all fluids together.
   SolidRelief relief() const;
   CellValues<double> solid_volume() const;  // of this rank's cells, m3
@@ -57,7 +63,9 @@ class Averaging {
   Vec3 unplaced_left_over() const;          // of the last sample, this rank, N s
 
  private:
+  bool on_any_rank(bool here) const;
   void set_shares();
+  void find_outside(const std::vector<Vec3>& positions);
 
   MPI_Comm world_;
   BulkGrid grid_;
@@ -65,10 +73,13 @@ class Averaging {
   AveragingParameters parameters_;
   std::vector<AveragingInFluid> fluids_;
   CellValues<double> open_share_;    // this rank's cells that are not all open
+  bool all_open_ = true;             // on all ranks
+  CellValues<BulkWalls> walls_;      // this rank's cells that have some
+  bool walled_ = false;              // any rank's
   CellValues<BulkSurface> surface_;  // this rank's cells that hold liquid; with one fluid none
   KernelWeights weights_;
   std::optional<TouchedCells> touched_;
-  long outside_ = 0;
+  std::vector<char> outside_;  // of the local particles
 };
 
 }  // namespace demvof

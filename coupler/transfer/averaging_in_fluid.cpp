@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coupler/transfer/averaging_in_fluid.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/base/sphere.hpp"
 
 namespace demvof {
 namespace {
@@ -42,17 +44,49 @@ void AveragingInFluid::set_shares(CellValues<double> share) {
   if (diffusion_ && !everywhere_) diffusion_->set_open_shares(share_);
 }
 
-void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& touched) {
+void AveragingInFluid::set_walls(const CellValues<BulkWalls>& walls) {
+  walls_ = walls;
+  if (diffusion_) diffusion_->set_walls(walls);
+}
+
+void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& touched,
+                             const std::vector<char>& outside, const std::vector<double>& radii) {
   touched_ = &touched;
+  outside_ = outside;
   if (everywhere_)
     weights_ = weights;
   else
     weights_ = weights_in_share(weights, touched.fetch_from_owners(share_, 1.0), std::move(weights_));
+
+  // The diffusion kernel's weights are spread over so many cells afterwards that nothing of it is left.
+  own_solid_.assign(outside.size(), 0.0);
+  for (int i = 0; i < weights_.particles() && !diffusion_; ++i) {
+    double squares = 0;
+    for (int entry = weights_.first[i]; entry < weights_.first[i + 1]; ++entry)
+      squares += weights_.weight[entry] * weights_.weight[entry];
+    own_solid_[i] = squares * sphere_volume(radii[i]) / grid_.cell_volume();
+  }
+}
+
+/// A sphere's drag knows of its neighbours by the void fraction around it, in which its own volume does not
+/// count. In a suspension the room that it keeps free of others makes up for that: eight times its volume.
+double AveragingInFluid::around(int particle, double void_fraction) const {
+  return std::min(1.0, void_fraction + own_solid_[particle] * std::max(0.0, 1 - 8 * (1 - void_fraction)));
 }
 
 const CellValues<BulkParticles>& AveragingInFluid::deposit(const std::vector<BulkParticles>& contributions) {
-  deposited_ = deposit_records(contributions);
-  relief_ = limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_);
+  if (std::find(outside_.begin(), outside_.end(), 1) == outside_.end()) {
+    deposited_ = deposit_records(contributions);
+  } else {
+    std::vector<BulkParticles> counted = contributions;
+    for (std::size_t i = 0; i < counted.size(); ++i) {
+      if (!outside_[i]) continue;
+      counted[i] = {};
+      counted[i].drag_impulse = contributions[i].drag_impulse;  // of the window in which it left
+    }
+    deposited_ = deposit_records(counted);
+  }
+  relief_ = limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_, walls_);
   return deposited_;
 }
 
@@ -80,13 +114,14 @@ std::vector<FluidAtParticle> AveragingInFluid::sample(const CellValues<BulkFluid
   std::vector<FluidAtParticle> at_particles(means.size());
   for (std::size_t i = 0; i < means.size(); ++i) {
     const CellSample& mean = means[i];
+    if (outside_[i]) continue;
     if (mean.fluid > 0)
       at_particles[i] = {mean.velocity / mean.fluid,
                          mean.pressure_gradient / mean.fluid,
                          mean.density / mean.fluid,
                          mean.viscosity / mean.fluid,
                          {},
-                         mean.void_fraction / mean.fluid};
+                         around(static_cast<int>(i), mean.void_fraction / mean.fluid)};
     at_particles[i].left_over_rate = mean.left_over_rate;
   }
   if (!gradients) return at_particles;
@@ -97,7 +132,7 @@ std::vector<FluidAtParticle> AveragingInFluid::sample(const CellValues<BulkFluid
     if (owned.values[i].density > 0) steepness.values[i] = {1, gradients->values[i]};
   const std::vector<GradientSample> slopes = sample_records(std::move(steepness));
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    if (!(slopes[i].fluid > 0)) continue;
+    if (outside_[i] || !(slopes[i].fluid > 0)) continue;
     const BulkFluidGradients& mean = slopes[i].gradients;
     at_particles[i].gradients = {mean.stress_force / slopes[i].fluid, mean.acceleration / slopes[i].fluid,
                                  mean.vorticity / slopes[i].fluid};

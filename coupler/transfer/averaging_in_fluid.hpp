@@ -9,6 +9,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/touched_cells.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 #include "coupler/transfer/diffusion.hpp"
 #include "coupler/transfer/fluid_at_particle.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
@@ -27,8 +28,13 @@ class AveragingInFluid {
   /// share: of this fluid in the volume of those of this rank's cells that are not all its own, -. Particles
   /// count in that share only.
   void set_shares(CellValues<double> share);
+  /// Faces of this rank's cells that nothing goes through.
+  void set_walls(const CellValues<BulkWalls>& walls);
   /// Where the particles are from here on: weights before shares, and their cells, which must outlive this.
-  void weigh(const KernelWeights& weights, const TouchedCells& touched);
+  /// outside: 1 for a particle without fluid around it; it leaves its impulse, displaces nothing and is told
+  /// of no fluid.
+  void weigh(const KernelWeights& weights, const TouchedCells& touched, const std::vector<char>& outside,
+             const std::vector<double>& radii);
   /// True for a particle that reaches a cell with this fluid.
   bool reached_by(int particle) const { return weights_.first[particle + 1] > weights_.first[particle]; }
 
@@ -70,6 +76,8 @@ class AveragingInFluid {
   const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
 
  private:
+  double around(int particle, double void_fraction) const;
+
   MPI_Comm world_;
   BulkGrid grid_;
   BulkPartition partition_;
@@ -77,7 +85,11 @@ class AveragingInFluid {
   CellValues<double> share_;  // this rank's cells that are not all this fluid's
   bool everywhere_ = true;    // on all ranks no such cells
   std::optional<Diffusion> diffusion_;
+  CellValues<BulkWalls> walls_;
   KernelWeights weights_;
+  std::vector<char> outside_;
+  std::vector<double>
+      own_solid_;  // share of each particle's own volume in the solid fraction that it samples, -
   const TouchedCells* touched_ = nullptr;
   CellValues<BulkParticles> deposited_;
   SolidRelief relief_;

@@ -51,7 +51,8 @@ void RowDiffusion::step(double* row, int width) const {
     }
 }
 
-Diffusion::Diffusion(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, double bandwidth) {
+Diffusion::Diffusion(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, double bandwidth)
+    : world_(world) {
   int rank, ranks;
   check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
   check_mpi(MPI_Comm_size(world, &ranks), "MPI_Comm_size");
@@ -79,8 +80,26 @@ Diffusion::Diffusion(MPI_Comm world, const BulkGrid& grid, const BulkPartition& 
     for (const CellId cell : cells)
       place.push_back(
           static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), cell) - sorted.begin()));
-    axes_.push_back({RowDiffusion(n, strength, grid.periodic()[axis]), std::move(place), n,
+    axes_.push_back({RowDiffusion(n, strength, grid.periodic()[axis]),
+                     std::move(place),
+                     n,
+                     grid.periodic()[axis],
+                     strength,
+                     axis,
+                     {},
                      std::make_unique<TouchedCells>(world, partition, std::move(sorted))});
+  }
+}
+
+void Diffusion::set_walls(const CellValues<BulkWalls>& walls) {
+  int any = walls.cells.empty() ? 0 : 1;
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
+  walls_ = any > 0;
+  if (!walls_) return;
+  for (Axis& axis : axes_) {
+    const std::vector<BulkWalls> here = axis.touched->fetch_from_owners(walls, BulkWalls{});
+    axis.wall.clear();
+    for (const int place : axis.place) axis.wall.push_back(here[place].towards_lower(axis.along));
   }
 }
 
@@ -89,8 +108,34 @@ void Diffusion::set_open_shares(const CellValues<double>& share) {
   for (CellId cell = begin_; cell < end_; ++cell) open.cells.push_back(cell);
   open.values.assign(open.cells.size(), 1.0);
   for (std::size_t i = 0; i < share.cells.size(); ++i) open.values[share.cells[i] - begin_] = share.values[i];
-  reached_ = diffused(open).values;
+  reached_ = diffused(open, false).values;
   open_ = std::move(open.values);
+}
+
+/// wall: below each cell of the row; nullptr: none anywhere.
+void Diffusion::diffuse_row(const Axis& axis, const char* wall, std::vector<double>& row, int width) {
+  const int n = axis.cells;
+  const bool walled =
+      wall && std::any_of(wall + (axis.periodic ? 0 : 1), wall + n, [](char w) { return w != 0; });
+  if (!walled) {
+    for (int step = 0; step < diffusion_steps; ++step) axis.row.step(row.data(), width);
+    return;
+  }
+  // A periodic row begins at one of its walls.
+  const int begin = axis.periodic
+                        ? static_cast<int>(std::find_if(wall, wall + n, [](char w) { return w != 0; }) - wall)
+                        : 0;
+  std::rotate(row.begin(), row.begin() + std::ptrdiff_t(begin) * width, row.end());
+  for (int first = 0; first < n;) {
+    int last = first + 1;
+    while (last < n && !wall[(begin + last) % n]) ++last;
+    if (last - first > 1) {
+      const RowDiffusion part(last - first, axis.strength, false);
+      for (int step = 0; step < diffusion_steps; ++step) part.step(&row[std::size_t(first) * width], width);
+    }
+    first = last;
+  }
+  std::rotate(row.begin(), row.end() - std::ptrdiff_t(begin) * width, row.end());
 }
 
 void Diffusion::diffuse(const Axis& axis, double* values, int width) {
@@ -104,7 +149,7 @@ void Diffusion::diffuse(const Axis& axis, double* values, int width) {
       std::copy_n(from, width, &row[std::size_t(i) * width]);
     }
     if (empty) continue;
-    for (int step = 0; step < diffusion_steps; ++step) axis.row.step(row.data(), width);
+    diffuse_row(axis, axis.wall.empty() ? nullptr : &axis.wall[line], row, width);
     for (int i = 0; i < axis.cells; ++i)
       std::copy_n(&row[std::size_t(i) * width], width, values + std::size_t(place[i]) * width);
   }

@@ -14,10 +14,11 @@
 //   (1 + 2 r) z_i - r (z_i-1 + z_i+1) = x_i
 //   y_i = x_i + lambda y_i-1,   z_i = (1 - lambda)^2 y_i + lambda z_i+1,   lambda / (1 - lambda)^2 = r
 //
-// begun with the mirrored (wall) or the repeated (periodic) row. Nothing is ever subtracted: no value gets
-// negative, small values far away keep their digits, and sums are kept to round-off. The operator is
-// symmetric, so that smoothing what is sampled is the transpose of smoothing what was deposited. Cost: that
-// of a few passes over the bulk grid, for any bandwidth and any number of particles.
+// begun with the mirrored (wall) or the repeated (periodic) row; a wall inside a row makes two of it. Nothing
+// is ever subtracted: no value gets negative, small values far away keep their digits, and sums are kept to
+// round-off. The operator is symmetric, so that smoothing what is sampled is the transpose of smoothing what
+// was deposited. Cost: that of a few passes over the bulk grid, for any bandwidth and any number of
+// particles.
 
 #include <mpi.h>
 
@@ -26,6 +27,7 @@
 
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/touched_cells.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -60,12 +62,15 @@ class Diffusion {
   ///   sampled
   void set_open_shares(const CellValues<double>& share);
 
+  /// Faces that nothing goes through, on cells of this rank. Before set_open_shares.
+  void set_walls(const CellValues<BulkWalls>& walls);
+
   /// What was deposited. values: on any subset of this rank's cells, the others hold 0. Returned: on all of
   /// them.
   template <class T>
   CellValues<T> spread(CellValues<T> values) const {
     scale(values, [this](std::size_t own) { return 1 / reached_[own]; });
-    values = diffused(std::move(values));
+    values = diffused(std::move(values), false);
     scale(values, [this](std::size_t own) { return open_[own]; });
     return values;
   }
@@ -73,7 +78,7 @@ class Diffusion {
   template <class T>
   CellValues<T> gather(CellValues<T> values) const {
     scale(values, [this](std::size_t own) { return open_[own]; });
-    values = diffused(std::move(values));
+    values = diffused(std::move(values), walls_);
     scale(values, [this](std::size_t own) { return 1 / reached_[own]; });
     return values;
   }
@@ -83,12 +88,18 @@ class Diffusion {
     RowDiffusion row;
     std::vector<int> place;  // of each cell of each of this rank's lines in the touched cells, line by line
     int cells;               // per line
+    bool periodic;
+    double strength;         // of the row's steps
+    int along;               // x, y, z: 0, 1, 2
+    std::vector<char> wall;  // below each of these cells; empty: none
     std::unique_ptr<TouchedCells> touched;
   };
+  static void diffuse_row(const Axis& axis, const char* wall, std::vector<double>& row, int width);
   static void diffuse(const Axis& axis, double* values, int width);
   template <class T>
-  CellValues<T> diffused(CellValues<T> values) const {
-    for (const Axis& axis : axes_) {
+  CellValues<T> diffused(CellValues<T> values, bool backwards) const {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const Axis& axis = axes_[backwards ? axes_.size() - 1 - i : i];  // with walls they do not commute
       std::vector<T> lines = axis.touched->fetch_from_owners(values, T{});
       diffuse(axis, reinterpret_cast<double*>(lines.data()), row_width<T>());
       values = axis.touched->sum_to_owners(lines);
@@ -107,6 +118,8 @@ class Diffusion {
   }
 
   CellId begin_, end_;  // of this rank's cells
+  bool walls_ = false;  // on all ranks
+  MPI_Comm world_;
   std::vector<Axis> axes_;
   std::vector<double> open_, reached_;  // a and G a of each cell of this rank; empty: all open
 };

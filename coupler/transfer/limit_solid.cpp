@@ -46,15 +46,21 @@ Excess total_excess(MPI_Comm world, const std::vector<double>& volume, const std
 /// All cells of one rank, and the cells of other ranks beside them.
 class Neighbourhood {
  public:
-  Neighbourhood(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, int rank)
+  Neighbourhood(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, int rank,
+                const CellValues<BulkWalls>& walls)
       : own_(partition.end(rank) - partition.begin(rank)),
         touched_(world, partition, around(grid, partition, rank)) {
     std::iota(own_.begin(), own_.end(), partition.begin(rank));
+    const std::vector<BulkWalls> beside_walls = touched_.fetch_from_owners(walls, BulkWalls{});
     for (const CellId cell : own_) {
       Beside& cell_beside = beside_.emplace_back();
       for (int face = 0; face < 6; ++face) {
         const CellId other = grid.neighbour(grid.ijk(cell), face / 2, face % 2 ? 1 : -1);
-        cell_beside[face] = other < 0 ? -1 : slot(other);
+        const BulkWalls* own = find(walls, cell);
+        const bool upper = face % 2 == 1;
+        const bool wall = other >= 0 && (upper ? beside_walls[slot(other)].towards_lower(face / 2)
+                                               : own && own->towards_lower(face / 2));
+        cell_beside[face] = other < 0 || wall ? -1 : slot(other);
       }
     }
   }
@@ -118,7 +124,7 @@ void pass_on(const Neighbourhood& around, const std::vector<double>& limit, std:
 
 SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                         double maximum_solid_fraction, const CellValues<double>& open_share,
-                        CellValues<BulkParticles>& owned) {
+                        CellValues<BulkParticles>& owned, const CellValues<BulkWalls>& walls) {
   const double whole = maximum_solid_fraction * grid.cell_volume();
   std::vector<double> given, limit(owned.cells.size(), whole);
   for (const BulkParticles& cell : owned.values) given.push_back(cell.solid_volume);
@@ -142,7 +148,7 @@ SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartitio
   excess = total_excess(world, volume, limit);
   if (excess.total > excess.room) return {relief.cells, 0, excess.volume};
 
-  const Neighbourhood around(world, grid, partition, rank);
+  const Neighbourhood around(world, grid, partition, rank, walls);
   for (int round = 0; excess.cells > 0 && round < most_rounds; ++round) {
     pass_on(around, limit, volume);
     excess = total_excess(world, volume, limit);

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -24,9 +25,10 @@ struct SolidRelief {
 /// less room than there are particles nothing is moved.
 ///
 /// open_share: the fluid's share in the volume of those cells that the fluid mesh does not fill, -; the
-/// others are all open. owned, open_share: cells owned by this rank. Collective over world.
+/// others are all open. walls: faces that nothing goes through. owned, walls, open_share: cells owned by this
+/// rank. Collective over world.
 SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                         double maximum_solid_fraction, const CellValues<double>& open_share,
-                        CellValues<BulkParticles>& owned);
+                        CellValues<BulkParticles>& owned, const CellValues<BulkWalls>& walls = {});
 
 }  // namespace demvof

@@ -158,6 +158,7 @@ int play(const Options& options, OwnWorld& world) {
   const WindowPlan& plan = link.receive_plan();
 
   link.open_shares();
+  link.walls();
   rows = bed.at(static_cast<double>(plan.windows_before) * plan.window);
   // The bed is wetted by the liquid alone: the stand-in is for one fluid, and for surfaces that it does not
   // touch.

@@ -50,6 +50,49 @@ TEST_F(AveragingKernels, DiffusionLeavesOutWhatTheMeshDoesNotFill) {
   });
 }
 
+TEST_F(AveragingKernels, DiffusionStaysBehindWalls) {
+  int rank, ranks;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> uniform(0, 1);
+  for (const bool periodic : {false, true}) {
+    const BulkGrid grid({0, 0, 0}, {0.08, 0.05, 0.06}, {8, 5, 6}, {periodic, false, periodic});
+    const BulkPartition partition(grid.cell_count(), ranks);
+    Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 0.03);
+    CellValues<BulkWalls> walls;
+    CellValues<double> given, field, side;
+    for (CellId cell = 0; cell < grid.cell_count(); ++cell) {
+      const auto ijk = grid.ijk(cell);
+      BulkWalls here;
+      here.x = ijk[0] == 3 || ijk[0] == 0 || uniform(random) < 0.05;  // two rooms, and baffles
+      here.y = uniform(random) < 0.1;
+      const double value = uniform(random), other = uniform(random);
+      if (partition.owner(cell) != rank) continue;
+      walls.cells.push_back(cell);
+      walls.values.push_back(here);
+      given.values.push_back(value);
+      field.values.push_back(other);
+      side.values.push_back(ijk[0] < 3);
+    }
+    given.cells = field.cells = side.cells = walls.cells;
+    diffusion.set_walls(walls);
+    const std::vector<double> spread = diffusion.spread(given).values,
+                              gathered = diffusion.gather(field).values;
+    double sums[6] = {};  // given, spread, in one room each; <spread, field>, <given, gathered>
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+      sums[side.values[i] > 0 ? 0 : 2] += given.values[i];
+      sums[side.values[i] > 0 ? 1 : 3] += spread[i];
+      sums[4] += spread[i] * field.values[i];
+      sums[5] += given.values[i] * gathered[i];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_NEAR(sums[1] / sums[0], 1, 1e-12);
+    EXPECT_NEAR(sums[3] / sums[2], 1, 1e-12);
+    EXPECT_NEAR(sums[4] / sums[5], 1, 1e-12);
+  }
+}
+
 TEST_F(AveragingKernels, DiffusionIsMirroredAtWallsAndNearTheGaussian) {
   std::mt19937 random(2);
   for (const double strength : {1e-3, 0.3, 40.0, 1e5})
