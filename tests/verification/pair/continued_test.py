@@ -121,7 +121,9 @@ class Continued(unittest.TestCase):
     def test_after_control_c(self):
         whole, parts = self.check_stopped(lambda pair: os.kill(pair.process.pid, signal.SIGINT))
         extra = [f for f in (parts / "fluid").iterdir() if not (whole / "fluid" / f.name).exists()]
-        self.assertEqual(len(extra), 1, "the window in which it was stopped is an output more")
+        stopped = round(Run(parts).results["continued_from"] / 1e-3)
+        self.assertGreaterEqual(stopped, 12)
+        self.assertEqual(len(extra), 0 if stopped % 5 == 0 else 1, "the window in which it was stopped is an output more")
         self.assertEqual((whole / "history.csv").read_text(), (parts / "history.csv").read_text())
 
     def check_refused(self, part, message, *options):
