@@ -36,6 +36,8 @@ class Bed(unittest.TestCase):
                             "--set", f"fluid.ranks={ranks[0]}"], check=True, stdout=subprocess.DEVNULL)
         options = [*options, "--set", f"fluid.ranks={ranks[0]}"]
         settings = [word for word in options if word != "--continue"]
+        if "--continue" in options:
+            settings += ["--continue", str(out)]
         done = subprocess.run(
             [MPIRUN, "--timeout", "100", "-np", str(sum(ranks)), PAIR,
              "-np", str(ranks[0]), FOAM_SIDE, str(self.case_file), "--out", str(out), *options,

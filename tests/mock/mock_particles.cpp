@@ -2,7 +2,7 @@
 // A stand-in for dem_side: a bed with prescribed rows, a slab of the bulk grid between two heights that holds
 // the same solid fraction and drag per volume everywhere and rises with a given velocity, whatever the fluid
 // does. It plays the particles' part of the window protocol with the real foam_side and books what it
-// receives. Usage: mock_particles case.yaml [options below]; foam_side --continue needs no option here.
+// receives. Usage: mock_particles case.yaml [options below].
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include "coupler/link/main_guard.hpp"
 #include "coupler/link/particle_end.hpp"
 #include "coupler/output/machine.hpp"
+#include "coupler/output/state_frame.hpp"
 
 namespace {
 
@@ -31,6 +32,7 @@ struct Options {
   double velocity = 0;                 // upward, m/s
   std::vector<double> gravity{0, 0, 0};
   std::vector<bool> periodic{false, false, false};
+  std::string goes_on_in;  // folder of the run that foam_side continues; empty: none
 };
 
 /// The bed on the bulk grid.
@@ -153,7 +155,12 @@ int play(const Options& options, OwnWorld& world) {
   const std::vector<double>& g = options.gravity;
   CellValues<BulkParticles> rows = bed.at(0);
   const double solid_volume = bed.report({}, {}, rows, 0).solid_volume;
-  link.handshake(handshake_items(version(), configuration_hash(parameters), {g[0], g[1], g[2]}),
+  std::string state = "no";
+  if (!options.goes_on_in.empty())
+    state = read_restart_point(options.goes_on_in, {}, state_frame(parameters, parameters.fluid.ranks),
+                               parameters.coupling.end_time)
+                .checksum;
+  link.handshake(handshake_items(version(), configuration_hash(parameters), {g[0], g[1], g[2]}, {}, state),
                  facts(options, solid_volume, parameters.coupling.window, world));
   const WindowPlan& plan = link.receive_plan();
 
@@ -204,6 +211,7 @@ int main(int argc, char** argv) {
   app.add_option("--velocity", options.velocity);
   app.add_option("--gravity", options.gravity)->expected(3);
   app.add_option("--periodic", options.periodic)->expected(3);
+  app.add_option("--continue", options.goes_on_in);
   CLI11_PARSE(app, argc, argv);
   OwnWorld world(argc, argv, Side::particles);
   return guarded_main(world, [&] { return play(options, world); });
