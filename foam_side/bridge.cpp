@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "foam_side/vectors.hpp"
+
 namespace demvof {
 namespace {
 
@@ -88,6 +90,12 @@ CellId Bridge::active_cells() const {
   const std::vector<CellId> cells = united(
       particles_to_fine_.state(), [](const auto& fluid) -> const auto& { return fluid.particles.cells; });
   return Foam::returnReduce(static_cast<label>(cells.size()), Foam::sumOp<label>());
+}
+
+Vec3 Bridge::kept_left_over() const {
+  Vec3 kept;
+  for (const LeftOver& fluid : left_over_) kept += fluid.kept();
+  return to_vec3(Foam::returnReduce(to_foam(kept), Foam::sumOp<vector>()));
 }
 
 ToldFluid::Relaxed Bridge::relaxed() const {

@@ -45,6 +45,9 @@ class Bridge {
   /// Derivatives on the same cells, after bulk_fluids; only when a force needs them (need_gradients).
   std::vector<CellValues<BulkFluidGradients>> bulk_fluid_gradients();
 
+  /// Of what the fluid owes at the end of a window, that which could not be handed over in it, N s. Over all
+  /// ranks.
+  Vec3 kept_left_over() const;
   /// Over all ranks.
   CellId active_cells() const;
   ToldFluid::Relaxed relaxed() const;

@@ -167,6 +167,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.planned = link.plan().windows;
     done.fluid.explicit_impulse = to_fine.impulses().explicit_part;
     done.fluid.implicit_impulse = to_fine.impulses().implicit_part;
+    done.fluid.kept_left_over = bridge.kept_left_over();
     if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
     done.negative_cells = to_fine.spread().negative_cells;
     enter_books(flow, done.fluid);

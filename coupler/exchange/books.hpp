@@ -16,6 +16,7 @@ namespace demvof {
 /// What the fluid side reports about a window; sums over all cells and ranks.
 struct FluidReport {
   Vec3 explicit_impulse, implicit_impulse;  // that the fluid received, N s
+  Vec3 kept_left_over;  // of windows before, that the particles could not be told in this one, N s
   std::optional<double> fine_solid_volume;  // as mapped to the mesh, m3; without porosity nothing is
   double liquid_volume = 0;                 // at the end of the window, m3
   double liquid_in = 0;                     // through the boundary in the window, m3
@@ -60,7 +61,7 @@ class Books {
     balance.explicit_to_fluid = fluid.explicit_impulse;
     balance.implicit_to_fluid = fluid.implicit_impulse;
     unplaced_ += particles.left_over_unplaced;
-    if (hands_back_left_over(scheme_)) balance.pending = unplaced_ - fluid.implicit_impulse;
+    if (hands_back_left_over(scheme_)) balance.pending = unplaced_ - fluid.implicit_impulse + fluid.kept_left_over;
     if (schedule_ == Schedule::concurrent && pays_drag_impulse(scheme_))
       balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
     // The fluid gets the drag of those that are still there. What one that left received in its last window,

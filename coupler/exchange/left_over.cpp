@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "coupler/exchange/momentum_exchange.hpp"
@@ -20,14 +21,28 @@ void LeftOver::collect(const CellValues<Vec3>& impulse, const CellValues<BulkPar
 }
 
 void LeftOver::end_window(const CellValues<BulkParticles>& particles) {
-  owed_ = {};
+  const CellValues<Owed> before = std::exchange(owed_, {});
   const CellValues<Vec3> collected = std::exchange(collected_, {});
+  kept_ = {};
+  for (const Owed& cell : before.values) kept_ += cell.impulse;
+  const auto owe = [this](CellId cell, const Owed& owed) {
+    owed_.cells.push_back(cell);
+    owed_.values.push_back(owed);
+  };
+  std::size_t at = 0;
+  const auto keep_up_to = [&](CellId cell) {  // concurrent particles have not been asked for these yet
+    for (; at < before.cells.size() && before.cells[at] < cell; ++at)
+      if (norm(before.values[at].impulse) > 0) owe(before.cells[at], before.values[at]);
+  };
   for (std::size_t i = 0; i < collected.cells.size(); ++i) {
     const BulkParticles* here = find(particles, collected.cells[i]);
     if (!here) continue;
-    owed_.cells.push_back(collected.cells[i]);
-    owed_.values.push_back({collected.values[i], here->solid_volume});
+    keep_up_to(collected.cells[i]);
+    owe(collected.cells[i], {collected.values[i], here->solid_volume});
+    if (at < before.cells.size() && before.cells[at] == collected.cells[i])
+      owed_.values.back().impulse += before.values[at++].impulse;
   }
+  keep_up_to(std::numeric_limits<CellId>::max());
 }
 
 void LeftOver::return_to_fluid(CellValues<BulkParticles>& particles) {

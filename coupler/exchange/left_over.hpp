@@ -20,7 +20,7 @@ class LeftOver {
   /// window; where there are none nothing is owed.
   void collect(const CellValues<Vec3>& impulse, const CellValues<BulkParticles>& particles);
 
-  /// What was collected is owed now, in place of what was before.
+  /// What was collected is owed now. What has been handed over is forgotten; what has not stays owed.
   void end_window(const CellValues<BulkParticles>& particles);
 
   /// The particles have moved on. What they do not take (share_for_particles) goes back to the fluid of its
@@ -32,11 +32,14 @@ class LeftOver {
   void hand_over(CellValues<BulkFluid>& fluid);
 
   const CellValues<Owed>& owed() const { return owed_; }
+  /// Of what is owed at the end of the window, that which could not be handed over in it, N s.
+  const Vec3& kept() const { return kept_; }
   void go_on_from(CellValues<Owed> owed) { owed_ = std::move(owed); }
 
  private:
   CellValues<Vec3> collected_;  // of this window so far, N s
   CellValues<Owed> owed_;
+  Vec3 kept_;
 };
 
 }  // namespace demvof

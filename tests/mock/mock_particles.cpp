@@ -99,9 +99,8 @@ class Bed {
     }
     for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
       const BulkParticles* row = find(before, fluid.cells[i]);
-      if (!row) continue;
-      report.pressure_impulse -= window * row->solid_volume * fluid.values[i].pressure_gradient;
-      (row->drag_factor > 0 ? report.left_over_given : report.left_over_unplaced) +=
+      if (row) report.pressure_impulse -= window * row->solid_volume * fluid.values[i].pressure_gradient;
+      (row && row->drag_factor > 0 ? report.left_over_given : report.left_over_unplaced) +=
           fluid.values[i].left_over;
     }
     report.solid_volume = sum(Vec3{report.solid_volume, 0, 0}).x;

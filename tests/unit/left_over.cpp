@@ -58,6 +58,8 @@ TEST(LeftOver, IsHandedOverOnceWithTheFluidOfItsCell) {
 
 TEST(LeftOver, IsOwedAnewAfterEachWindow) {
   Window window;
+  CellValues<BulkFluid> fluid{{2, 4, 6}, std::vector<BulkFluid>(3)};
+  window.left_over.hand_over(fluid);
   window.left_over.collect({{4}, {{7, 0, 0}}}, window.particles);
   window.left_over.end_window(window.particles);
   EXPECT_EQ(sum(window.left_over.owed()), (Vec3{7, 0, 0}));
@@ -94,6 +96,22 @@ TEST(LeftOver, WhatTheFluidHasLeftGoesBackToIt) {
   window.left_over.return_to_fluid(moved);
   EXPECT_EQ(moved.values[0].drag_impulse, (Vec3{0, -2, 0}));
   EXPECT_EQ(sum(window.left_over.owed()), Vec3{});
+}
+
+TEST(LeftOver, WhatConcurrentParticlesWereNotToldOutlastsTheWindow) {
+  Window window;
+  CellValues<BulkFluid> fluid{{2, 6}, std::vector<BulkFluid>(2)};  // no such fluid in cell 4 any more
+  window.left_over.hand_over(fluid);
+  const CellValues<BulkParticles> next{{2, 6}, {with_solid(1), with_solid(4)}};
+  window.left_over.collect({{6}, {{0, 0, 5}}}, next);
+  window.left_over.end_window(next);
+  ASSERT_EQ(window.left_over.owed().cells, (std::vector<CellId>{2, 4, 6}));
+  EXPECT_EQ(sum(window.left_over.owed()), (Vec3{0, 2, 5}));
+  CellValues<BulkParticles> moved{{6}, {with_solid(4)}};
+  window.left_over.return_to_fluid(moved);
+  ASSERT_EQ(moved.cells, (std::vector<CellId>{4, 6}));
+  EXPECT_EQ(moved.values[0].drag_impulse, (Vec3{0, -2, 0}));
+  EXPECT_EQ(sum(window.left_over.owed()), (Vec3{0, 0, 5}));
 }
 
 TEST(LeftOver, GoesOnFromAState) {
