@@ -302,7 +302,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
   if (const std::string said = slope_without_effect(flow->mesh, flow->g.value()); !said.empty())
-    scene.decisions.push_back({"slope along a periodic direction", false, said});
+    scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
         "constant/dynamicMeshDict: dynamicRefineFvMesh: with particles the case file says where the mesh is "
