@@ -121,10 +121,12 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Pimple,
                                                                   : "DragAndPorosity";
                          });
 
+// With particles it would keep momentum back that nobody counts; alone the solver does as interFoam.
 TEST(PimpleRefusal, RelaxedLastCorrector) {
   for (const char* factors : {"{ equations { U 0.8; UFinal 0.9; } }", "{ fields { \".*\" 0.5; } }"}) {
     const FoamCase box("pimple_refusal", {{"relaxation", factors}, {"nx", "2"}, {"ny", "2"}, {"nz", "2"}});
-    EXPECT_THROW(box.open(scene(false, false, false)), std::runtime_error) << factors;
+    EXPECT_THROW(box.open(scene(true, false, false)), std::runtime_error) << factors;
+    EXPECT_NO_THROW(box.open(scene(false, false, false))) << factors;
   }
 }
 
