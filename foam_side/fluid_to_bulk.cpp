@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the fine mesh to the bulk grid (paper, section 6; docs/theory.md).
 //
-//   q_b = sum_f w_f V_fb q_f / sum_f w_f V_fb      V_fb: volume of fine cell f in bulk cell b
+//   q_b = sum_f W_fb q_f / sum_f W_fb      W_fb: weight of the piece of fine cell f in bulk cell b
 //
-// with w of sharing_weights.hpp for velocity, acceleration and vorticity, so that density times acceleration
-// is that of the mixture; w = 1 for forces per volume (pressure gradient, stress), eps for density and
-// viscosity.
+// with the weights of sharing_weights.hpp: of forces for velocity, acceleration and vorticity, so that what
+// the particles do to the fluid they are told with; of the gradient for forces per volume (pressure gradient,
+// stress).
 //
 // Where the surface cuts a bulk cell, liquid (k = 0) and gas (k = 1) are told each by itself: V_fb becomes
 // the part of the piece that is k (surface_to_bulk.hpp), density and viscosity are those of k, and
@@ -38,28 +38,28 @@ constexpr double least_change = 0.1;
 
 /// Sums over the fine cells of a bulk cell that give its BulkFluid.
 struct FluidSums {
-  Vec3 weighted_velocity;  // sum w V u
-  Vec3 weighted_rise;      // sum w V offset . grad u
-  double weight = 0;       // sum w V
-  Vec3 pressure_gradient;  // sum V grad p
-  double eps_rho = 0;      // sum V eps rho
-  double eps_mu = 0;       // sum V eps mu
-  double eps = 0;          // sum V eps
-  double volume = 0;       // sum V
+  Vec3 weighted_velocity;      // sum W u
+  Vec3 weighted_rise;          // sum W offset . grad u
+  double weight = 0;           // sum W of forces
+  Vec3 pressure_gradient;      // sum W grad p
+  double gradient_weight = 0;  // sum W of the gradient
+  double rho = 0, mu = 0;      // sum W rho, sum W mu
+  double property_weight = 0;  // sum W of properties
+  double eps = 0, volume = 0;  // sum V eps, sum V
 };
 
 /// The same for BulkFluidGradients.
 struct GradientSums {
   BulkFluidGradients weighted;
-  double weight = 0, volume = 0;  // sum w V, sum V
+  double weight = 0, gradient_weight = 0;  // sum W of forces and of the gradient
 };
 
 BulkFluid mean(const FluidSums& sum) {
   BulkFluid cell;
   cell.velocity = sum.weighted_velocity / sum.weight;
-  cell.pressure_gradient = sum.pressure_gradient / sum.volume;
-  cell.density = sum.eps_rho / sum.eps;
-  cell.viscosity = sum.eps_mu / sum.eps;
+  cell.pressure_gradient = sum.pressure_gradient / sum.gradient_weight;
+  cell.density = sum.rho / sum.property_weight;
+  cell.viscosity = sum.mu / sum.property_weight;
   cell.void_fraction = sum.eps / sum.volume;
   return cell;
 }
@@ -84,7 +84,7 @@ void FluidToBulk::renew() {
 }
 
 std::vector<FluidToBulk::Means> FluidToBulk::means() const {
-  const std::vector<double> weight = sharing_weights(flow_, sharing_);
+  const SharingWeights weights(flow_, surface_, cut_, sharing_);
   const Foam::vectorField gradient = pressure_gradient(flow_, forces_.capillary || !flow_.porosity);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
   tmp<Foam::tensorField> velocity_slope, gradient_slope;
@@ -104,21 +104,22 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
       if (v == 0) continue;
       FluidSums& sum = sums[piece.slot];
       const bool cut = surface_.is_cut(piece.slot);
-      const double w = sharing_weight(flow_, surface_, sharing_, k, piece, weight);
-      const double eps_v = (flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0) * v;
+      const SharingWeights::Of w = weights.of(k, piece);
       const double rho = density_between_particles(flow_, piece.fine);
-      sum.weighted_velocity += w * to_vec3(flow_.U[piece.fine]);
-      sum.weight += w;
-      sum.pressure_gradient += v * to_vec3(gradient[piece.fine]);
-      if (cut) sum.pressure_gradient += v * (rho_k - rho) * to_vec3(flow_.g.value());
-      sum.eps_rho += eps_v * (cut ? rho_k : rho);
-      sum.eps_mu += eps_v * (cut ? viscosity_k()[piece.fine] : viscosity()[piece.fine]);
-      sum.eps += eps_v;
+      sum.weighted_velocity += w.force * to_vec3(flow_.U[piece.fine]);
+      sum.weight += w.force;
+      sum.pressure_gradient += w.gradient * to_vec3(gradient[piece.fine]);
+      if (cut) sum.pressure_gradient += w.gradient * (rho_k - rho) * to_vec3(flow_.g.value());
+      sum.gradient_weight += w.gradient;
+      sum.rho += w.property * (cut ? rho_k : rho);
+      sum.mu += w.property * (cut ? viscosity_k()[piece.fine] : viscosity()[piece.fine]);
+      sum.property_weight += w.property;
+      sum.eps += (flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0) * v;
       sum.volume += v;
       if (!cut_.has_profiles()) continue;
       const vector offset = to_foam(piece.offset);
-      sum.weighted_rise += w * to_vec3(offset & velocity_slope()[piece.fine]);
-      if (!cut) sum.pressure_gradient += v * to_vec3(offset & gradient_slope()[piece.fine]);
+      sum.weighted_rise += w.force * to_vec3(offset & velocity_slope()[piece.fine]);
+      if (!cut) sum.pressure_gradient += w.gradient * to_vec3(offset & gradient_slope()[piece.fine]);
     }
     const CellValues<FluidSums> owned = cut_.cells().sum_to_owners(sums);
     Means& means = all.emplace_back();
@@ -161,7 +162,7 @@ void FluidToBulk::sample_points(const Foam::vectorField& gradient, const scalarF
 
 std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
   const FluidGradients fine = fluid_gradients(flow_, forces_);
-  const std::vector<double> weight = sharing_weights(flow_, sharing_);
+  const SharingWeights weights(flow_, surface_, cut_, sharing_);
   std::vector<CellValues<BulkFluidGradients>> all;
   for (int k = 0; k < surface_.fluids(); ++k) {
     std::vector<GradientSums> sums(cut_.cells().cells().size());
@@ -169,20 +170,20 @@ std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
       const double v = surface_.share(k, piece) * piece.volume;
       if (v == 0) continue;
       GradientSums& sum = sums[piece.slot];
-      const double w = sharing_weight(flow_, surface_, sharing_, k, piece, weight);
-      sum.weighted.stress_force += v * to_vec3(fine.stress_force[piece.fine]);
-      sum.weighted.acceleration += w * to_vec3(fine.acceleration[piece.fine]);
-      sum.weighted.vorticity += w * to_vec3(fine.vorticity[piece.fine]);
-      sum.weight += w;
-      sum.volume += v;
+      const SharingWeights::Of w = weights.of(k, piece);
+      sum.weighted.stress_force += w.gradient * to_vec3(fine.stress_force[piece.fine]);
+      sum.weighted.acceleration += w.force * to_vec3(fine.acceleration[piece.fine]);
+      sum.weighted.vorticity += w.force * to_vec3(fine.vorticity[piece.fine]);
+      sum.weight += w.force;
+      sum.gradient_weight += w.gradient;
     }
     const CellValues<GradientSums> owned = cut_.cells().sum_to_owners(sums);
     CellValues<BulkFluidGradients>& bulk = all.emplace_back();
     for (std::size_t i = 0; i < owned.cells.size(); ++i) {
       const GradientSums& sum = owned.values[i];
-      if (!(sum.volume > 0)) continue;  // as in means
+      if (!(sum.gradient_weight > 0)) continue;  // as in means
       bulk.cells.push_back(owned.cells[i]);
-      bulk.values.push_back({sum.weighted.stress_force / sum.volume, sum.weighted.acceleration / sum.weight,
+      bulk.values.push_back({sum.weighted.stress_force / sum.gradient_weight, sum.weighted.acceleration / sum.weight,
                              sum.weighted.vorticity / sum.weight});
     }
   }

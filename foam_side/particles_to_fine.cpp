@@ -185,13 +185,13 @@ Foam::vectorField ParticlesToFine::solid_flux_density() const {
 
 void ParticlesToFine::spread_sources() {
   const std::vector<Piece>& pieces = cut_.pieces();
-  const std::vector<double> weight = sharing_weights(flow_, coupling_.sharing);
   ParticleSource& source = *flow_.source;
   source.force = Foam::dimensionedVector(source.force.dimensions(), Foam::Zero);
   source.coefficient = dimensionedScalar(source.coefficient.dimensions(), Foam::Zero);
   source.reference = Foam::dimensionedVector(source.reference.dimensions(), Foam::Zero);
   const auto& volume = flow_.mesh.V();
   surface_.look();
+  const SharingWeights weights(flow_, surface_, cut_, coupling_.sharing);
   for (int k = 0; k < surface_.fluids(); ++k) {
     // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
     // it.
@@ -200,8 +200,8 @@ void ParticlesToFine::spread_sources() {
     };
     std::vector<Totals> total(touched_[k].size());
     for (const Piece& piece : pieces) {
-      total[piece.slot].own += sharing_weight(flow_, surface_, coupling_.sharing, k, piece, weight);
-      total[piece.slot].all += weight[piece.fine] * piece.volume;
+      total[piece.slot].own += weights.of(k, piece).force;
+      total[piece.slot].all += weights.of_any(piece);
     }
     total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
     std::vector<FluidSource> sources(touched_[k].size());
@@ -213,9 +213,8 @@ void ParticlesToFine::spread_sources() {
       const Piece& piece = pieces[i];
       const FluidSource& bulk = sources[piece.slot];
       const Totals& sum = total[piece.slot];
-      const double part = sum.own > 0
-                              ? sharing_weight(flow_, surface_, coupling_.sharing, k, piece, weight) / sum.own
-                              : weight[piece.fine] * piece.volume / sum.all;
+      const double part =
+          sum.own > 0 ? weights.of(k, piece).force / sum.own : weights.of_any(piece) / sum.all;
       const double share = part / volume[piece.fine];
       coefficient_part_[k][i] = share * bulk.coefficient;
       source.force[piece.fine] += share * to_foam(bulk.explicit_force);

@@ -1,23 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/sharing_weights.hpp"
 
+#include <algorithm>
+
 namespace demvof {
 
-std::vector<double> sharing_weights(const Flow& flow, Sharing sharing) {
-  std::vector<double> weight(static_cast<std::size_t>(flow.mesh.nCells()), 1.0);
-  if (sharing == Sharing::mass)
-    for (std::size_t cell = 0; cell < weight.size(); ++cell) {
-      const label index = static_cast<label>(cell);
-      weight[cell] = (flow.porosity ? flow.porosity->eps[index] : 1.0) * flow.rho[index];
-    }
-  return weight;
+namespace {
+
+// Solid fraction of a bulk cell from which on it has a profile; less is round-off of the void fraction, or
+// nothing that feels a force worth its place.
+constexpr double least_solid = 1e-6;
+
+}  // namespace
+
+SharingWeights::SharingWeights(const Flow& flow, const SurfaceToBulk& surface, const BulkCut& cut,
+                               Sharing sharing)
+    : flow_(flow), surface_(surface), sharing_(sharing), with_profile_(cut.cells().cells().size(), 0) {
+  if (sharing == Sharing::volume || !flow.porosity) return;
+  struct Sums {
+    double solid = 0, volume = 0;
+  };
+  std::vector<Sums> sums(with_profile_.size());
+  for (const Piece& piece : cut.pieces()) {
+    sums[piece.slot].solid += std::max(0.0, 1 - eps(piece)) * piece.volume;
+    sums[piece.slot].volume += piece.volume;
+  }
+  sums = cut.cells().fetch_from_owners(cut.cells().sum_to_owners(sums), Sums{});
+  for (std::size_t slot = 0; slot < sums.size(); ++slot)
+    with_profile_[slot] =
+        sums[slot].solid > least_solid * sums[slot].volume && !surface.is_cut(static_cast<int>(slot));
 }
 
-double sharing_weight(const Flow& flow, const SurfaceToBulk& surface, Sharing sharing, int k,
-                      const Piece& piece, const std::vector<double>& weight) {
-  const double volume = surface.share(k, piece) * piece.volume;
-  if (sharing == Sharing::volume || !surface.is_cut(piece.slot)) return weight[piece.fine] * volume;
-  return (flow.porosity ? flow.porosity->eps[piece.fine] : 1.0) * volume;
+SharingWeights::Of SharingWeights::of(int k, const Piece& piece) const {
+  const double v = surface_.share(k, piece) * piece.volume, rho = flow_.rho[piece.fine];
+  if (with_profile_[piece.slot]) {
+    const double solid = std::max(0.0, 1 - eps(piece)) * v;
+    return {solid * rho, solid, solid};
+  }
+  const double fluid = eps(piece) * v;
+  if (sharing_ == Sharing::volume) return {v, fluid, v};
+  return {surface_.is_cut(piece.slot) ? fluid : rho * fluid, fluid, v};
+}
+
+double SharingWeights::of_any(const Piece& piece) const {
+  return (sharing_ == Sharing::volume ? 1.0 : eps(piece) * flow_.rho[piece.fine]) * piece.volume;
 }
 
 }  // namespace demvof

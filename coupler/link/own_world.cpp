@@ -155,7 +155,7 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
 }
 
 bool OwnWorld::heard_the_same(const std::string& reason) const {
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 200; ++i) {
     try {
       if (const auto cry = pair_->alarm->listen())
         if (const std::string& said = cry->failure.message;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -54,11 +55,18 @@ inline std::string bead_properties() {
 inline const char* gravity = "fix g all gravity 9.81 vector 0 0 -1\n";
 inline const char* integrate = "fix integrate all nve/sphere\n";
 
+/// A new folder's name, the same on all ranks and of no other run.
+inline std::filesystem::path scene_folder(const std::string& name, MPI_Comm world) {
+  int process = getpid();
+  MPI_Bcast(&process, 1, MPI_INT, 0, world);
+  return std::filesystem::temp_directory_path() / ("demvof_" + name + "_" + std::to_string(process));
+}
+
 /// Writes a script into a new folder and has it read.
 class Scene {
  public:
   Scene(const std::string& name, const std::string& script, MPI_Comm world = MPI_COMM_WORLD)
-      : world_(world), folder_(std::filesystem::temp_directory_path() / ("demvof_" + name)) {
+      : world_(world), folder_(scene_folder(name, world)) {
     int rank;
     MPI_Comm_rank(world, &rank);
     if (rank == 0) {

@@ -62,6 +62,12 @@ double share_by_chords(const Vec3& centre, double radius, const Vec3& low, const
   return sum * (x1 - x0) * (y1 - y0) / n / n / (4 * pi / 3 * std::pow(radius, 3));
 }
 
+bool in_grid(const BulkGrid& grid, const Vec3& x) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!grid.periodic()[axis] && (x[axis] < grid.lower()[axis] || x[axis] > grid.upper()[axis])) return false;
+  return true;
+}
+
 TEST_F(AveragingKernels, NothingIsLostAndNothingDependsOnTheRanks) {
   for (const Kernel kernel : all_kernels) {
     double worst_sum = 0, worst_difference = 0, lowest = 0, worst_transpose = 0, worst_ledger = 0;
@@ -71,7 +77,10 @@ TEST_F(AveragingKernels, NothingIsLostAndNothingDependsOnTheRanks) {
       const AveragingParameters parameters = averaging(kernel, 0.21);
       Averager alone(MPI_COMM_SELF, grid, parameters, set);
       const std::vector<double> cells = alone.deposit();
-      const double given = total(set.value);
+      double given = 0;  // by those in the grid; where there is no fluid nothing is displaced
+      for (std::size_t i = 0; i < set.position.size(); ++i)
+        if (in_grid(grid, set.position[i])) given += set.value[i];
+      EXPECT_LT(given, total(set.value));
       worst_sum = std::max(worst_sum, std::abs(total(cells) / given - 1));
       lowest = std::min(lowest, *std::min_element(cells.begin(), cells.end()));
 
@@ -268,7 +277,7 @@ TEST_F(AveragingKernels, CrossingACellFace) {
         for (const double around : {0.0, 0.25, 2.25, 2.75, 3.0, 3.5, 4.0}) {
           for (int s = 0; s < 2; ++s) {
             Set set;
-            const double x = around + (i - 60 + s) * step;
+            const double x = std::max(0.0, around + (i - 60 + s) * step);  // the centre up to the wall
             set.add({x, 2.43 + 0.1 * x, 2.61}, d / 2);
             const std::vector<double> now = deposited(grid, averaging(kernel, b), set);
             if (s == 1)
