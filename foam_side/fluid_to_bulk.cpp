@@ -183,8 +183,8 @@ std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
       const GradientSums& sum = owned.values[i];
       if (!(sum.gradient_weight > 0)) continue;  // as in means
       bulk.cells.push_back(owned.cells[i]);
-      bulk.values.push_back({sum.weighted.stress_force / sum.gradient_weight, sum.weighted.acceleration / sum.weight,
-                             sum.weighted.vorticity / sum.weight});
+      bulk.values.push_back({sum.weighted.stress_force / sum.gradient_weight,
+                             sum.weighted.acceleration / sum.weight, sum.weighted.vorticity / sum.weight});
     }
   }
   return all;

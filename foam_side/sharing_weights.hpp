@@ -11,18 +11,19 @@
 namespace demvof {
 
 /// What the pieces of a bulk cell count in the force that they take from it and in what they tell it
-/// (particles_to_fine.cpp, fluid_to_bulk.cpp), for the fluid as it is now. V: the volume of a piece that counts
-/// as fluid k, m3.
+/// (particles_to_fine.cpp, fluid_to_bulk.cpp), for the fluid as it is now. V: the volume of a piece that
+/// counts as fluid k, m3.
 ///
-///                                                   force, velocity    density, viscosity    pressure gradient
+///                                                   force, velocity    density, viscosity    pressure
+///                                                   gradient
 ///   mass, where the particles are                   psi rho V          psi V                 psi V
 ///   mass, elsewhere and where the surface cuts      eps rho_(k) V      eps V                 V
 ///   volume                                          V                  eps V                 V
 ///
-/// psi = 1 - eps is the solid's own profile on the fine mesh: what the fluid of a bulk cell takes goes to where
-/// the solid is that gives it, and the sum of psi V grad p is what the fluid's equations leave to the particles.
-/// Where there is none (particles that have just come, no porosity) and where the surface cuts the bulk cell,
-/// which has a flat profile there, every fine cell gets the same acceleration.
+/// psi = 1 - eps is the solid's own profile on the fine mesh: what the fluid of a bulk cell takes goes to
+/// where the solid is that gives it, and the sum of psi V grad p is what the fluid's equations leave to the
+/// particles. Where there is none (particles that have just come, no porosity) and where the surface cuts the
+/// bulk cell, which has a flat profile there, every fine cell gets the same acceleration.
 class SharingWeights {
  public:
   struct Of {

@@ -61,7 +61,8 @@ class Books {
     balance.explicit_to_fluid = fluid.explicit_impulse;
     balance.implicit_to_fluid = fluid.implicit_impulse;
     unplaced_ += particles.left_over_unplaced;
-    if (hands_back_left_over(scheme_)) balance.pending = unplaced_ - fluid.implicit_impulse + fluid.kept_left_over;
+    if (hands_back_left_over(scheme_))
+      balance.pending = unplaced_ - fluid.implicit_impulse + fluid.kept_left_over;
     if (schedule_ == Schedule::concurrent && pays_drag_impulse(scheme_))
       balance.pending -= balance.drag_to_particles;  // the fluid's next window pays it
     // The fluid gets the drag of those that are still there. What one that left received in its last window,

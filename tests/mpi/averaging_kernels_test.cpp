@@ -64,7 +64,8 @@ double share_by_chords(const Vec3& centre, double radius, const Vec3& low, const
 
 bool in_grid(const BulkGrid& grid, const Vec3& x) {
   for (int axis = 0; axis < 3; ++axis)
-    if (!grid.periodic()[axis] && (x[axis] < grid.lower()[axis] || x[axis] > grid.upper()[axis])) return false;
+    if (!grid.periodic()[axis] && (x[axis] < grid.lower()[axis] || x[axis] > grid.upper()[axis]))
+      return false;
   return true;
 }
 
