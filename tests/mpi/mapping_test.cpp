@@ -156,7 +156,7 @@ TEST(Mapping, ReachesItsOrderAndKeepsWhatItPromises) {
       if (interpolates(mapping))
         record.note(what + ": integral error at 20 cells", lost[mapping]);
       else
-        record.at_most(what + ": integral error at 20 cells", lost[mapping], 1e-12);
+        record.at_most(what + ": integral error at 20 cells", lost[mapping], 2e-13);
       record.curve("To the fine mesh, " + name, "bulk spacing, -", "mean error, -", name_of(mapping),
                    spacings(name), errors[mapping], "xy");
     }
@@ -178,7 +178,7 @@ TEST(Mapping, ReachesItsOrderAndKeepsWhatItPromises) {
       worst = std::max(worst, std::abs(fine[cell] - linear(s.mesh.centre[cell])));
     const std::string what = "linear field up to the walls, " + name_of(mapping);
     if (mapping == Mapping::cell_point_face)
-      record.at_most(what, s.max(worst), 1e-12);
+      record.at_most(what, s.max(worst), 6e-14);
     else
       record.note(what, s.max(worst));
   }
@@ -196,7 +196,7 @@ TEST(Mapping, ReachesItsOrderAndKeepsWhatItPromises) {
     for (std::size_t slot = 0; slot < back.size(); ++slot)
       change = std::max(change, std::abs(back[slot] / totals[slot] - 1));
   }
-  record.at_most("cells refined in between: change of integrals and of bulk totals", change, 1e-12);
+  record.at_most("cells refined in between: change of integrals and of bulk totals", change, 8e-15);
 
   // The sum over the bulk cells with any profile in the fine cells.
   double kept = 0;
@@ -213,7 +213,7 @@ TEST(Mapping, ReachesItsOrderAndKeepsWhatItPromises) {
     for (const double sum : sums) total += sum;
     kept = std::max(kept, std::abs(s.sum(total) / s.integral(fine) - 1));
   }
-  record.at_most("to_bulk conservative: integral error", kept, 1e-12);
+  record.at_most("to_bulk conservative: integral error", kept, 5e-14);
 }
 
 }  // namespace

@@ -39,15 +39,14 @@ def summary(records, out):
     failed = [row for row in rows if not row["passed"]]
     for row in failed:
         print(f"NOT  {row['name']}: {row['value']} {row['unit']} (bound {row['bound']})")
-    loose = sum(without_teeth(value) for record in records for value in record["values"])
+    loose = sum(len(without_teeth(record["values"])) for record in records)
     print(f"{len(rows)} values of {len(records)} tests, {len(failed)} outside their bound, {loose} with bounds too far "
           f"away (collect.py teeth): {out}")
     return 1 if failed else 0
 
 
 def teeth(records):
-    loose = [(room(value), record["row"], value) for record in records for value in record["values"]
-             if without_teeth(value)]
+    loose = [(room(value), record["row"], value) for record in records for value in without_teeth(record["values"])]
     for factor, row, value in sorted(loose, key=lambda entry: -entry[0]):
         print(f"{factor:10.3g} times  {row}: {value['name']}: {number(value['value'])}, {value['comparison']} "
               f"{number(value['bound'])}")

@@ -149,7 +149,7 @@ TEST(InterfaceAdvection, DiscComesBack) {
           worst.volume_error = std::max(worst.volume_error, result.volume_error);
           worst.excess = std::max(worst.excess, result.excess);
         }
-        record.at_most(scheme + ", " + where + ": liquid volume", worst.volume_error, 1e-12);
+        record.at_most(scheme + ", " + where + ": liquid volume", worst.volume_error, 3e-13);
         record.at_most(scheme + ", " + where + ": alpha outside 0 to 1", worst.excess, 1e-8);
         record.note(scheme + ", " + where + ": shape error, 32 cells", errors[scheme][0]);
         record.note(scheme + ", " + where + ": shape error, 64 cells", errors[scheme][1]);

@@ -53,14 +53,14 @@ def periodic():
         position[:, 0] = (position[:, 0] - shift) % length
         states.append((position, state["velocity"].astype(float)))
         RECORD.at_most(f"periodic, {name}: particles lost", run.results["particles"]["lost"], 0)
-        RECORD.at_most(f"periodic, {name}: exchange error", run.number("conservation.exchange"), 1e-12)
-        RECORD.at_most(f"periodic, {name}: solid volume error", run.number("conservation.solid_volume"), 1e-12)
+        RECORD.at_most(f"periodic, {name}: exchange error", run.number("conservation.exchange"), 5e-14)
+        RECORD.at_most(f"periodic, {name}: solid volume error", run.number("conservation.solid_volume"), 6e-14)
     RECORD.at_most("periodic: position, across against inside, over the box",
-                   numpy.abs(states[0][0] - states[1][0]).max() / length, 1e-10)
+                   numpy.abs(states[0][0] - states[1][0]).max() / length, 1.4e-14)
     RECORD.at_most("periodic: velocity, across against inside",
-                   numpy.abs(states[0][1] - states[1][1]).max(), 1e-10, "m/s")
+                   numpy.abs(states[0][1] - states[1][1]).max(), 8e-15, "m/s")
     fallen = 0.03 - states[0][0][:, 2].max()
-    RECORD.at_least("periodic: the beads fall by", fallen, 1e-3, "m")
+    RECORD.at_least("periodic: the beads fall by", fallen, 0.01, "m")
 
 
 def refusals():
@@ -114,13 +114,14 @@ def slanted_floor():
     height = state["position"] @ normal - diameter / 2
     RECORD.at_most("slanted STL floor: particles lost", run.results["particles"]["lost"], 0)
     RECORD.at_most("slanted STL floor: solid volume error, bulk grid and fine mesh",
-                   run.number("conservation.solid_volume"), 1e-12)
-    RECORD.at_most("slanted STL floor: exchange error", run.number("conservation.exchange"), 1e-12)
+                   run.number("conservation.solid_volume"), 6e-14)
+    RECORD.at_most("slanted STL floor: exchange error", run.number("conservation.exchange"), 5e-14)
     RECORD.at_least("slanted STL floor: lowest bead above the plane", height.min() / diameter, -0.01, "d")
-    RECORD.at_most("slanted STL floor: highest bead above the plane", height.max() / diameter, 0.01, "d")
+    RECORD.at_most("slanted STL floor: highest bead above the plane", height.max() / diameter, 0.01, "d",
+                   loose="the beads press into the plane by 3e-4 d, which the lowest one's bound sees")
     RECORD.at_most("slanted STL floor: fastest bead at the end",
                    numpy.linalg.norm(state["velocity"], axis=1).max(), 1e-2, "m/s")
-    RECORD.at_most("slanted STL floor: fastest water at the end", run.history["max_speed"][-1], 5e-3, "m/s")
+    RECORD.at_most("slanted STL floor: fastest water at the end", run.history["max_speed"][-1], 1.2e-3, "m/s")
     RECORD.curve("Beads on a slanted floor", "time, s", "m/s", "fastest water", run.history["time"],
                  run.history["max_speed"], style="-")
 
@@ -148,13 +149,13 @@ def two_sizes():
     mass = volume * numpy.where(small, 1800, 2500)
     potential = 9.81 * float((mass * state["position"][:, 2]).sum())
     RECORD.at_most("two sizes: sum of m g z of the run, against diameters and densities of the script",
-                   abs(run.history["particle_potential_energy"][-1] / potential - 1), 1e-9)
-    RECORD.at_most("two sizes: solid volume error", run.number("conservation.solid_volume"), 1e-12)
+                   abs(run.history["particle_potential_energy"][-1] / potential - 1), 2e-15)
+    RECORD.at_most("two sizes: solid volume error", run.number("conservation.solid_volume"), 6e-14)
     RECORD.at_most("two sizes: solid volume on the mesh, against the script",
-                   abs(run.history["solid_volume_mesh"][-1] / volume.sum() - 1), 1e-6)
+                   abs(run.history["solid_volume_mesh"][-1] / volume.sum() - 1), 1.8e-14)
     RECORD.at_most("two sizes: mean speed of the beads at the end",
                    numpy.linalg.norm(state["velocity"], axis=1).mean(), 1e-2, "m/s")
-    RECORD.at_most("two sizes: fastest water at the end", run.history["max_speed"][-1], 5e-3, "m/s")
+    RECORD.at_most("two sizes: fastest water at the end", run.history["max_speed"][-1], 6e-4, "m/s")
 
 
 # ---- inlets and outlets
@@ -178,16 +179,16 @@ def frozen_in_a_stream():
     state = particle_states(run.folder)
     start = numpy.array([p.position for p in case.particles])
     RECORD.at_most("frozen: displacement", numpy.abs(state["position"] - start).max(), 0, "m")
-    RECORD.at_most("frozen: exchange error", run.number("conservation.exchange"), 1e-12)
-    RECORD.at_most("frozen: solid volume error", run.number("conservation.solid_volume"), 1e-12)
-    RECORD.at_most("frozen: liquid volume error", run.number("conservation.liquid_volume"), 1e-10)
+    RECORD.at_most("frozen: exchange error", run.number("conservation.exchange"), 5e-14)
+    RECORD.at_most("frozen: solid volume error", run.number("conservation.solid_volume"), 6e-14)
+    RECORD.at_most("frozen: liquid volume error", run.number("conservation.liquid_volume"), 4e-14)
     # What the stream loses in pressure the particles hold: dp A = drag + pressure force. The water upstream has
     # the pressure dp, that downstream none.
     force = float((state["drag_force"] + state["pressure_force"])[:, 0].sum())
-    RECORD.at_least("frozen: force on the particles", force, 1e-4, "N")
+    RECORD.at_least("frozen: force on the particles", force, 2e-3, "N")
     pressure_drop = pressure_upstream(run)
     RECORD.at_most("frozen: pressure drop times area against the force on the particles",
-                   abs(pressure_drop * 0.02 ** 2 / force - 1), 0.02)
+                   abs(pressure_drop * 0.02 ** 2 / force - 1), 8.5e-4)
 
 
 def pressure_upstream(run):
@@ -242,9 +243,9 @@ def out_with_the_stream():
         RECORD.note(f"out with the stream, {name}: lost", count["lost"])
         RECORD.at_most(f"out with the stream, {name}: against what the positions say",
                        abs(count["left"] - expected[0]) + abs(count["lost"] - expected[1]), 0)
-        RECORD.at_most(f"out with the stream, {name}: exchange error", run.number("conservation.exchange"), 1e-12)
+        RECORD.at_most(f"out with the stream, {name}: exchange error", run.number("conservation.exchange"), 5e-14)
         RECORD.at_most(f"out with the stream, {name}: solid volume error",
-                       run.number("conservation.solid_volume"), 1e-12)
+                       run.number("conservation.solid_volume"), 6e-14)
 
 
 TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream]

@@ -47,8 +47,8 @@ def main():
                 else:
                     record.note(f"{name}: fastest fluid / sphere's speed", fastest[-1])
                 record.note(f"{name}: largest integral of u.u in the gas", gas[-1], "m5/s2")
-                record.at_most(f"{name}: momentum exchange", run.results["conservation"]["exchange"], 1e-12)
-                record.at_most(f"{name}: momentum of the sphere", run.results["conservation"]["momentum"], 1e-12)
+                record.at_most(f"{name}: momentum exchange", run.results["conservation"]["exchange"], 1.5e-13)
+                record.at_most(f"{name}: momentum of the sphere", run.results["conservation"]["momentum"], 1.6e-14)
             series = f"{kernel}, {sharing}"
             record.curve("fastest fluid", "density ratio", "fastest fluid / sphere's speed", series, RATIOS, fastest,
                          log="xy")
