@@ -121,8 +121,10 @@ TEST(DragLaws, TendToASingleSphere) {
   }
   record().at_most("gidaspow at eps = 1 against schiller_naumann", gidaspow_error, 4e-15);
   record().at_most("di_felice, rong at eps = 1 against Dallavalle", dallavalle_error, 4e-15);
-  record().at_most("koch_hill at eps = 1, Re -> 0 against Stokes", std::abs(single(laws[3], 1e-9) - 1), 1e-10);
-  record().at_most("beetstra at eps = 1, Re -> 0 against Stokes", std::abs(single(laws[4], 1e-12) - 1), 2e-14);
+  record().at_most("koch_hill at eps = 1, Re -> 0 against Stokes", std::abs(single(laws[3], 1e-9) - 1),
+                   1e-10);
+  record().at_most("beetstra at eps = 1, Re -> 0 against Stokes", std::abs(single(laws[4], 1e-12) - 1),
+                   2e-14);
   record().at_most("dallavalle at Re -> 0 below Stokes (published: 4 %)", 1 - single(laws[2], 1e-12), 0.041);
 }
 
