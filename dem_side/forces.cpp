@@ -267,6 +267,13 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       if (torque) torque->act(particles, i, {});
       continue;
     }
+    if (half_step_ && !moves) {  // what it gets in whole steps is all that it gets
+      for (int k = 0; k < 2; ++k)
+        if (row.feels(k))
+          row.fluid[k].drag_factor_sum += row.share(k) * drag_factor(drag_law, row.fluid[k], 2 * radius,
+                                                                     norm(row.fluid[k].velocity - velocity));
+      continue;
+    }
 
     const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, step);
     struct Part {  // in one fluid

@@ -34,7 +34,8 @@
 // therefore changes over a window by exactly the sum of dt f over its steps: the impulses below,
 // drag + pressure + left-over + stress + constant - held + contact + gravity, add up to its change to
 // round-off. LIGGGHTS takes the first half step of a run with the forces of its set-up, which knows no fluid:
-// first_half_step() puts the fluid in, and counts what it gives as the first window's.
+// first_half_step() puts the fluid in, and counts what it gives as the first window's: what a particle gains
+// the fluid loses. One that no force moves gains nothing.
 
 #include <functional>
 #include <optional>

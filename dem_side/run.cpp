@@ -175,7 +175,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     }
     if (replacement)
       replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), coupling.window);
-    if (link.number() == 1 && plan.schedule == Schedule::concurrent) {
+    if (link.number() == 1) {
       forces.first_half_step();  // the fluid is known now
       if (plan.schedule == Schedule::concurrent) {
         ParticleMessage expected;
