@@ -39,11 +39,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// 0 at the window's begin, 1 at its end and later.
-double part_of_window_after_next_step(const Flow& flow) {
+/// What the flux of this step serves: the coming step's. Beyond the window's end the particles go on as they
+/// did.
+scalarField void_fraction_after_next_step(const Flow& flow, ParticlesToFine& to_fine) {
   const Clock& clock = flow.clock;
-  const double then = flow.time.value() + flow.time.deltaTValue();
-  return std::min(1.0, (then - clock.window_begin) / (clock.window_end - clock.window_begin));
+  const double window = clock.window_end - clock.window_begin, step = flow.time.deltaTValue() / window;
+  const double part = (flow.time.value() - clock.window_begin) / window + step;
+  if (part < 1 + 0.5 * step) return to_fine.void_fraction(std::min(part, 1.0));
+  const scalarField before = to_fine.void_fraction(1 - step), end = to_fine.void_fraction(1);
+  return end + (end - before);
 }
 
 /// One time step of the fluid; false when there is none left in the window or the run.
@@ -67,7 +71,7 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
     move_mesh(flow);
     advect_interface(flow);
     if (bridge && flow.porosity && flow.scene.two_fluids)
-      follow_surface(flow, bridge->particles_to_fine().void_fraction(part_of_window_after_next_step(flow)));
+      follow_surface(flow, void_fraction_after_next_step(flow, bridge->particles_to_fine()));
     if (flow.pimple.frozenFlow()) continue;
     predict_momentum(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);

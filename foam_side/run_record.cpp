@@ -271,7 +271,8 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   std::vector<std::string> lines = flow.scene.advice;
   if (flow.alpha_excess > unbounded)
     lines.push_back(
-        fmt::format("alpha left [0, 1] by up to {:.2g}: more nAlphaSubCycles or a smaller maxAlphaCo",
+        fmt::format("alpha left [0, 1] by up to {:.2g}: nLimiterIter 10 (MULES's own is 3), more "
+                    "nAlphaSubCycles or a smaller maxAlphaCo",
                     flow.alpha_excess));
   if (limits_.relieved_cells > 0)
     lines.push_back(

@@ -82,6 +82,8 @@ def build(name, changes):
     case = BoxCase(folder, (WIDTH, WIDTH, HEIGHT), fine, bulk, TIME, given["window"], gravity=(0, 0, -given["gravity"]),
                    liquid=(1000, given["viscosity"]), gas=(given["gas"], 1e-5), sigma=given["tension"], level=LEVEL,
                    contacts=True, stiffness=0.5 * mass * (numpy.pi / contact)**2, dem_step=1e-5, forces=given["forces"],
+                   # MULES's limiter stops after three iterations by itself, which leaves 1e-6 of a bound.
+                   alpha_controls="nAlphaCorr 1; nAlphaSubCycles 1; cAlpha 1; MULESCorr no; nLimiterIter 10;",
                    coupling=given["coupling"], tolerance=1e-8, history_interval=given["window"],
                    pimple="momentumPredictor yes;" if given["viscosity"] > 1e-4 else "",
                    particles=list(beads(given["diameter"], given["density"], given["dense"])))

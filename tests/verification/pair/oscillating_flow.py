@@ -47,7 +47,7 @@ def sphere(demvof, ratio, added, per_period):
     tau = (ratio + added) * density * volume / beta
     omega = 1 / tau
     window, periods = 2 * math.pi / omega / per_period, 3
-    edge = 4 * diameter
+    edge = 16 * diameter  # 1e-4 of its bulk cell: a sphere alone
     speed = 1e-4 * diameter * omega  # so small that nothing but the mean moves, and Re = 1e-5
     forces = [{"drag": "schiller_naumann"}, "pressure_gradient"] + ([{"added_mass": added}] if added else [])
     case = BoxCase(scratch(f"oscillating_flow/sphere_{ratio:g}_{added:g}_{per_period}"), (edge, edge, 5 * edge), (1, 1, 20),
@@ -101,10 +101,10 @@ def main():
         "against Saffman's decay and wave number.",
         "tests/Alltest --verification -- -R pair.oscillating_flow_long" if options.long
         else "tests/Alltest -- -R 'pair.oscillating_flow$'")
-    spheres = [(2.5, 0.5, 160), (2.5, 0.5, 320)]
+    spheres = [(2.5, 0.5, 320), (2.5, 0.5, 640)]
     layers = [(1, 160)]
     if options.long:
-        spheres = [(ratio, added, n) for ratio, added in ((2.5, 0.5), (2.5, 0), (0.01, 0.5)) for n in (80, 160, 320, 640)]
+        spheres = [(ratio, added, n) for ratio, added in ((2.5, 0.5), (2.5, 0), (0.01, 0.5)) for n in (160, 320, 640)]
         layers = [(f, n) for f in (0, 1) for n in (160, 320, 640)]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         of_spheres = {s: pool.submit(sphere, options.demvof, *s) for s in spheres}

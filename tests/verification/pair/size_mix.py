@@ -41,11 +41,11 @@ def main():
     record = Record("size_mix", "Drag in a bed of two sizes",
                     "Slow flow through a held bed of spheres of 1 and 2 mm with equal volumes, void fraction 0.4, with "
                     "Beetstra's law through the real pair: the ratio of the drags against the law with the Sauter diameter.",
-                    "tests/Alltest --verification -- -R pair.size_mix")
+                    "tests/Alltest -- -R pair.size_mix")
     for d, value in mean.items():
-        record.at_most(f"drag on a sphere of {1e3 * d:g} mm: spread", (max(drag[d]) - min(drag[d])) / value, 2e-14)
+        record.at_most(f"drag on a sphere of {1e3 * d:g} mm: spread", (max(drag[d]) - min(drag[d])) / value, 5e-13)
     record.note("ratio of the drags", mean[LARGE] / mean[SMALL])
-    record.at_most("ratio of the drags against the law's: error", abs(mean[LARGE] / mean[SMALL] / expected - 1), 5e-14)
+    record.at_most("ratio of the drags against the law's: error", abs(mean[LARGE] / mean[SMALL] / expected - 1), 2e-14)
     pressure = {d: phi / VOID * (d / SAUTER) ** 2 / share(d) for d in mean}  # over the drag, in a bed at rest
     record.note("ratio of the whole forces in a bed at rest",
                 mean[LARGE] * (1 + pressure[LARGE]) / (mean[SMALL] * (1 + pressure[SMALL])))

@@ -148,8 +148,7 @@ def sweep(long):
     for schedule in SCHEDULES:
         for stiffness, loading, held in ((0.1, 1, 0.5), (1e3, 0.1, 0), (1e3, 10, 0), (1e4, 1, 1)):
             yield "conservative_implicit", schedule, stiffness, loading, held, 12
-    for scheme in ("explicit", "semi_implicit"):
-        yield scheme, "staggered", 10, 1, 0, 12
+    yield "explicit", "staggered", 10, 1, 0, 12
 
 
 def main():
@@ -166,7 +165,7 @@ def main():
     judge(record, runs, options.long)
     for schedule in SCHEDULES:
         open_part, warnings = run_through(options.demvof, schedule)
-        record.at_most(f"particles running through cells, {schedule}: exchange of momentum open", open_part, 1e-10)
+        record.at_most(f"particles running through cells, {schedule}: exchange of momentum open", open_part, 1e-13)
         record.at_most(f"particles running through cells, {schedule}: warnings of left-over without receiver", warnings, 0)
     raise SystemExit(record.write())
 
@@ -184,35 +183,37 @@ def judge(record, runs, long):
     ours = [run for run in runs if run["scheme"] == "conservative_implicit"]
     record.note("runs", len(runs))
     name = "distance from the linear map over the largest velocity, worst run"
-    for scheme in ("explicit", "conservative_implicit"):
-        record.at_most(f"{scheme}: {name}", max(run["off_map"] for run in runs if run["scheme"] == scheme), 1e-4)
-    # This one pulls the fluid to the particles' velocity at the last full DEM step; the map has half steps.
-    record.note(f"semi_implicit: {name}", max(run["off_map"] for run in runs if run["scheme"] == "semi_implicit"))
+    for scheme, bound in (("explicit", 2e-8), ("conservative_implicit", 1.5e-6)):
+        record.at_most(f"{scheme}: {name}", max(run["off_map"] for run in runs if run["scheme"] == scheme), bound)
     for schedule in SCHEDULES:
         some = [run for run in ours if run["schedule"] == schedule]
         record.at_most(f"conservative_implicit, {schedule}: runs that grow", int(sum(map(unstable, some))), 0)
         record.at_most(f"conservative_implicit, {schedule}: exchange of momentum open",
-                       max(run["exchange"] for run in some), 1e-10)
+                       max(run["exchange"] for run in some), 2e-14)
         record.at_most(f"conservative_implicit, {schedule}: drift of total momentum, free particles",
-                       max(run["momentum"] for run in some if run["held"] == 0), 1e-10)
+                       max(run["momentum"] for run in some if run["held"] == 0), 5e-11 if long else 1e-11)
         free = [run for run in some if run["held"] == 0 and run["stiffness"] >= 1e3]
         for_both = [run for run in free if run["stiffness"] >= 100 * run["loading"]]
         light = [run for run in free if run["loading"] <= 0.1]
         name = f"{schedule}: distance from the common velocity, stiffness >= 1000, after"
         if schedule == "staggered":
-            record.at_most(f"{name} 3 windows, if >= 100 for the particles too", distance(for_both, 3), 0.1)
+            record.at_most(f"{name} 3 windows, if >= 100 for the particles too", distance(for_both, 3), 0.025)
         else:
-            record.at_most(f"{name} 10 windows, loading <= 0.1", distance(light, 10), 0.1)
+            record.at_most(f"{name} 10 windows, loading <= 0.1", distance(light, 10), 7e-4)
         record.note(f"{name} 3 windows, all", distance(free, 3))
         record.note(f"{name} 10 windows, all", distance(free, 10))
-    semi = [run for run in runs if run["scheme"] == "semi_implicit" and run["held"] == 0]
-    record.note("semi_implicit: worst error of total momentum, over the largest of its parts",
-                max(run["momentum"] for run in semi))
     if long:
         maps(record, runs)
 
 
 def maps(record, runs):
+    # semi_implicit does not keep momentum, and pulls the fluid to the particles' velocity at the last full DEM step; the
+    # map has half steps.
+    semi = [run for run in runs if run["scheme"] == "semi_implicit"]
+    record.note("semi_implicit: distance from the linear map over the largest velocity, worst run",
+                max(run["off_map"] for run in semi))
+    record.note("semi_implicit: worst error of total momentum, over the largest of its parts",
+                max(run["momentum"] for run in semi if run["held"] == 0))
     for scheme, schedule, (what, held) in itertools.product(SCHEMES, SCHEDULES, HELD.items()):
         some = [r for r in runs if (r["scheme"], r["schedule"], r["held"]) == (scheme, schedule, held)]
         record.note(f"{scheme}, {schedule}, {what}: runs that grow", int(sum(map(unstable, some))))
