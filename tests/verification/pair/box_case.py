@@ -295,14 +295,14 @@ fix integrate all nve/sphere
         (folder / "in.particles").write_text(script + "thermo 100000\n" + self.script_tail)
 
 
-def particle_states(folder):
-    """Of the last output: dict of arrays by name, rows sorted by particle id."""
+def particle_states(folder, output=-1):
+    """Of the last output, or another one: dict of arrays by name, rows sorted by particle id."""
     import numpy
     from vtk import vtkXMLPolyDataReader
     from vtk.util.numpy_support import vtk_to_numpy
     files = sorted((pathlib.Path(folder) / "particles").glob("*.vtp"), key=lambda f: f.stat().st_mtime)
     reader = vtkXMLPolyDataReader()
-    reader.SetFileName(str(files[-1]))
+    reader.SetFileName(str(files[output]))
     reader.Update()
     data = reader.GetOutput()
     arrays = {data.GetPointData().GetArrayName(i): vtk_to_numpy(data.GetPointData().GetArray(i))
