@@ -111,7 +111,7 @@ class Study(unittest.TestCase):
                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
 
     def wait_for_a_run(self):
-        until = time.monotonic() + 30
+        until = time.monotonic() + 120
         while not (self.folder / "calls").exists() and time.monotonic() < until:
             time.sleep(0.05)
         self.assertEqual(self.calls(), 1)
