@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/replacement.hpp"
 
+#include "coupler/base/sphere.hpp"
 #include "coupler/grid/bring_to_owners.hpp"
 
 namespace demvof {
@@ -14,7 +15,8 @@ Replacement::Replacement(Dem& dem, double least_speed) : dem_(dem), least_speed_
   dem_.add_particle_rows(rows_name, 1);
 }
 
-void Replacement::begin_window(const std::vector<BulkInterface>& seen, double window) {
+void Replacement::begin_window(const std::vector<BulkInterface>& seen,
+                               const std::vector<FluidAtParticle>& liquid, double window) {
   const ParticleArrays particles = dem_.particles();
   double* const* rows = dem_.particle_rows(rows_name);
   decided_.clear();
@@ -26,7 +28,9 @@ void Replacement::begin_window(const std::vector<BulkInterface>& seen, double wi
                      : hits_interface(seen[i], position, velocity, particles.radius[i], window, least_speed_);
     if (!changes) continue;
     replaced = 1 - replaced;
-    decided_.push_back({position, velocity, particles.radius[i], replaced > 0 ? 1.0 : -1.0});
+    const double drop = liquid[i].density * sphere_volume(particles.radius[i]), mass = particles.mass[i];
+    decided_.push_back(
+        {position, mass / (mass + drop) * velocity, particles.radius[i], replaced > 0 ? 1.0 : -1.0});
   }
 }
 

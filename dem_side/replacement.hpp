@@ -7,6 +7,7 @@
 
 #include "coupler/exchange/crossing.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/transfer/fluid_at_particle.hpp"
 #include "dem_side/dem.hpp"
 
 namespace demvof {
@@ -21,8 +22,11 @@ class Replacement {
   Replacement(Dem& dem, double least_speed);
 
   /// Decides at the start of a window. seen: the interface at each local particle, sampled with the
-  /// weights of its bulk cells. window: s.
-  void begin_window(const std::vector<BulkInterface>& seen, double window);
+  /// weights of its bulk cells; liquid: what of the liquid it feels. window: s. A drop starts with the
+  /// velocity that it and its particle come to when they stick together, v m/(m + rho_1 V): its momentum
+  /// comes out of the particle's.
+  void begin_window(const std::vector<BulkInterface>& seen, const std::vector<FluidAtParticle>& liquid,
+                    double window);
 
   /// What begin_window decided, brought to the owners of the bulk cells.
   CellValues<Droplet> droplets(const BulkGrid& grid, const BulkPartition& partition) const;

@@ -159,9 +159,9 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   while (link.next_window()) {
     run_stage().set("exchange with the fluid", link.end_time() - coupling.window);
     const FluidMessage fluid = link.fluid();
+    FluidsAtParticles felt;
     {
       const Stopwatch watch(seconds.averaging);
-      FluidsAtParticles felt;
       for (int k = 0; k < plan.fluids; ++k)
         felt.fluid[k] =
             averaging.in(k).sample(fluid.means[k], plan.gradients ? &fluid.gradients[k] : nullptr);
@@ -174,7 +174,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
         forces.tell_sizes(k, sizes_around(dem.particles(), forces, k, averaging.in(k)));
     }
     if (replacement)
-      replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), coupling.window);
+      replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), felt.fluid[0],
+                                coupling.window);
     if (link.number() == 1) {
       forces.first_half_step();  // the fluid is known now
       if (plan.schedule == Schedule::concurrent) {

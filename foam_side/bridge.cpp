@@ -59,6 +59,22 @@ void Bridge::collect_impulse() {
     left_over_[k].collect(impulse[k], particles_to_fine_.particles(static_cast<int>(k)));
 }
 
+bool Bridge::owe(const Vec3& position, const Vec3& impulse) {
+  const CellId cell = cut_.grid().id(cut_.grid().locate(position));
+  for (std::size_t k = 0; k < left_over_.size(); ++k) {
+    const CellValues<BulkParticles>& particles = particles_to_fine_.particles(static_cast<int>(k));
+    const BulkParticles* here = find(particles, cell);
+    const bool takes = here && here->drag_factor > 0;
+    if (!particles_to_fine_.hands_back() || !Foam::returnReduce(takes, Foam::orOp<bool>())) continue;
+    if (takes) {
+      left_over_[k].collect({{cell}, {-impulse}}, particles);
+      particles_to_fine_.count_given(impulse);
+    }
+    return true;
+  }
+  return false;
+}
+
 void Bridge::end_window() {
   collect_impulse();
   particles_to_fine_.end_window();

@@ -35,6 +35,11 @@ class Bridge {
   /// Notes what is owed to the particles so far. Before each change of the mesh.
   void collect_impulse();
 
+  /// The fluid got an impulse (N s) at a place from the particles there: their bulk cell owes it to them with
+  /// the opposite sign. False, and nothing is noted, when nobody there has drag or nothing is handed back.
+  /// The same on every rank. After take().
+  bool owe(const Vec3& position, const Vec3& impulse);
+
   /// The rest of the window's, and then what is owed as a whole.
   void end_window();
 

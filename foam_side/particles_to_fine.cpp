@@ -249,6 +249,10 @@ std::vector<CellValues<Vec3>> ParticlesToFine::collect_impulse() {
   return taken;
 }
 
+bool ParticlesToFine::hands_back() const {
+  return hands_back_left_over(coupling_.exchange);
+}
+
 void ParticlesToFine::end_window() {
   implicit_impulse_ = std::exchange(collected_sum_, Vec3{});
 }

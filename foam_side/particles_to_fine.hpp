@@ -62,6 +62,11 @@ class ParticlesToFine {
   /// mesh, because new cells cannot tell which bulk cell it came from.
   std::vector<CellValues<Vec3>> collect_impulse();
 
+  /// True when what the implicit part took is handed back to the particles.
+  bool hands_back() const;
+  /// The fluid got an impulse (N s) from the particles in another way, which they are owed like the rest.
+  void count_given(const Vec3& impulse) { collected_sum_ += impulse; }
+
   /// The window's impulses are complete.
   void end_window();
 

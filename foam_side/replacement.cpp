@@ -101,7 +101,7 @@ void Exchange::turn(label cell, double liquid) {
   const double rho1 = flow_.mixture.rho1().value(), rho2 = flow_.mixture.rho2().value();
   const double mass = v * flow_.rho[cell];
   vector& u = flow_.U[cell];
-  // What becomes liquid brings the particle's velocity, what becomes gas keeps the cell's.
+  // What becomes liquid brings its velocity along, what becomes gas keeps the cell's.
   const vector brought = liquid > 0 ? to_foam(droplet_.velocity) : u;
   const vector gained = liquid * (rho1 * brought - rho2 * u);
   u = (mass * u + gained) / (mass + liquid * (rho1 - rho2));
@@ -164,7 +164,7 @@ void update_boundaries(Flow& flow, const scalarField& old_density) {
 void replace_particles(
     Flow& flow, const std::vector<Droplet>& droplets,
     const std::function<scalarField(const Vec3& position, double volume)>& solid_fraction_of,
-    ReplacementBooks& books) {
+    const std::function<bool(const Vec3& position, const Vec3& impulse)>& owe, ReplacementBooks& books) {
   if (droplets.empty()) return;
   const scalarField old_density(flow.rho.primitiveField());
   const surfaceScalarField old_flux(cell_flux(flow));
@@ -188,7 +188,9 @@ void replace_particles(
             "coupling.phase_interchange: porous",
             diameter, droplet.position.x, droplet.position.y, droplet.position.z, coarsest, drop_resolution));
     }
-    impulse += exchange.impulse();
+    const vector given = Foam::returnReduce(exchange.impulse(), Foam::sumOp<vector>());
+    impulse += given;
+    if (!owe(droplet.position, to_vec3(given))) books.from_outside += to_vec3(given);
 
     const double change =
         Foam::gSum(scalarField(liquid_volumes(flow) - before));  // cell by cell: less round-off
@@ -203,7 +205,6 @@ void replace_particles(
   if (!flow.porosity)
     fit_flux(flow, projection_mobility(flow), nullptr);  // else with the window's void fraction
 
-  Foam::reduce(impulse, Foam::sumOp<vector>());
   books.impulse += to_vec3(impulse);
   const Vec3 after = fluid_momentum(flow), open = after - momentum - to_vec3(impulse);
   const double size = std::max({norm(after), norm(momentum), Foam::mag(impulse)});

@@ -50,12 +50,25 @@ scalarField void_fraction_after_next_step(const Flow& flow, ParticlesToFine& to_
   return end + (end - before);
 }
 
+/// The surface, or drops, have moved since the goal was set: it is that of now, and the rate has what is left
+/// of the coming step. Before a change of the mesh, or new cells would get that with their profile, at once.
+void catch_up_with_surface(Flow& flow, ParticlesToFine& to_fine) {
+  const Clock& clock = flow.clock;
+  const double step = flow.time.deltaTValue(), now = flow.time.value() - step;
+  const double part = (now - clock.window_begin) / (clock.window_end - clock.window_begin);
+  const scalarField goal = to_fine.void_fraction(part);
+  flow.porosity->rate.field() += (flow.porosity->goal.field() - goal) / step;
+  flow.porosity->goal.field() = goal;
+}
+
 /// One time step of the fluid; false when there is none left in the window or the run.
 bool step_fluid(Flow& flow, Bridge* bridge) {
   if (!advance_clock(flow)) return false;
   run_stage().set("fluid step", flow.time.value());
-  const auto before_change = [bridge] {
-    if (bridge) bridge->collect_impulse();
+  const auto before_change = [bridge, &flow] {
+    if (!bridge) return;
+    bridge->collect_impulse();
+    if (flow.porosity && flow.scene.two_fluids) catch_up_with_surface(flow, bridge->particles_to_fine());
   };
   const bool moves = extras(flow).motion != MeshMotion::never;
   if (!moves && refine_mesh(flow, before_change)) {
@@ -151,7 +164,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     {
       const Stopwatch watch(seconds.fluid);
       begin_window(flow, link.end_time());
-      replace_particles(flow, droplets, solid_fraction_of, replacement);
+      replace_particles(
+          flow, droplets, solid_fraction_of,
+          [&bridge](const Vec3& position, const Vec3& impulse) { return bridge.owe(position, impulse); },
+          replacement);
       to_fine.note(droplets);
       to_fine.spread_sources();  // the flux is fitted to the new window with its drag
       if (flow.porosity) set_porosity_target(flow, to_fine.void_fraction());
@@ -178,7 +194,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     if (replaces) {
       done.replacement = replacement;
       done.fluid.replaced_liquid = replacement.liquid();
-      done.fluid.replacement_impulse = replacement.impulse;
+      done.fluid.replacement_impulse = replacement.from_outside;
     }
     done.active_cells = static_cast<long>(bridge.active_cells());
     done.relaxation = bridge.relaxed().smallest;

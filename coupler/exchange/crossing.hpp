@@ -52,7 +52,7 @@ inline bool hits_interface(const BulkInterface& seen, const Vec3& position, cons
 /// A particle that becomes liquid on the fine mesh, or takes its place back, at the start of a window.
 /// Travels as a row of doubles.
 struct Droplet {
-  Vec3 position, velocity;  // of the particle, m, m/s
+  Vec3 position, velocity;  // of the drop, m, m/s
   double radius = 0;        // m
   double sign = 1;          // +1: it becomes liquid; -1: it takes its place back
 };

@@ -3,9 +3,9 @@
 """One sphere enters water as a drop on the fine mesh: replacement.py DEMVOF [--long | --refined]
 
 Paper, section 7.2, second variant: 4 mm, 2000 kg/m3, at 0.5 m/s just above a surface at rest; bulk cells of 5 mm.
-Short: a box of 0.02 x 0.02 x 0.06 m in cells of 1 mm, until the sphere has its place back; the same on a mesh of
-4 mm that refines itself to 1 mm at the surface and around the sphere.
-Long: the paper's box on 108k and 500k cells, crater at 0.03 s, and porous and volume_adding on 108k beside it.
+Short: a box of 0.02 x 0.02 x 0.06 m on a mesh of 4 mm that refines itself to 1 mm at the surface and around the sphere,
+until the sphere has its place back.
+Long: the same in cells of 1 mm everywhere; the paper's box on 108k and 500k cells, crater at 0.03 s, and porous and volume_adding on 108k beside it.
 Refined: the same box on 62 500 cells of 2 mm that refine themselves to the 1 mm of the 500k, against its record.
 """
 import json
@@ -63,28 +63,37 @@ def check_books(record, run, name, back):
     if back:
         record.at_least(f"{name}: spheres that took their place back", books["took_place_back"], 1)
         balance = abs(books["liquid_in"] - books["liquid_out"] - (books["became_liquid"] - books["took_place_back"]) * VOLUME)
-        record.at_most(f"{name}: liquid taken and given back / volume of the sphere", balance / VOLUME, 1e-10)
-    record.at_most(f"{name}: worst |change of liquid - volume| / volume", books["volume_error"], 1e-10)
+        record.at_most(f"{name}: liquid taken and given back / volume of the sphere", balance / VOLUME, 1e-12)
+    record.at_most(f"{name}: worst |change of liquid - volume| / volume", books["volume_error"], 2e-14)
     record.at_most(f"{name}: liquid volume, drift", conservation["liquid_volume"], 1e-12)
-    record.at_most(f"{name}: solid volume", conservation["solid_volume"], 1e-12)
-    record.at_most(f"{name}: momentum exchange", conservation["exchange"], 1e-12)
-    record.at_most(f"{name}: momentum of the sphere", conservation["momentum"], 1e-12)
-    record.at_most(f"{name}: booked impulse against the fluid's change", books["impulse_error"], 1e-12)
+    record.at_most(f"{name}: solid volume", conservation["solid_volume"], 2e-13)
+    record.at_most(f"{name}: momentum exchange", conservation["exchange"], 8e-13)
+    record.at_most(f"{name}: momentum of the sphere", conservation["momentum"], 1e-14)
+    record.at_most(f"{name}: booked impulse against the fluid's change", books["impulse_error"], 1e-14)
     record.note(f"{name}: impulse that came with the liquid / (rho V 0.5 m/s)",
                 -books["impulse"][2] / (WATER * VOLUME * SPEED))
+    own = DENSITY * VOLUME * SPEED
+    record.at_most(f"{name}: momentum from outside, with the drop / the sphere's own",
+                   max(map(abs, run.results["momentum"]["impulses"]["replacement"])) / own, 1e-14)
+    # The drop sticks to the sphere: rho_p/(rho_p + rho) of the speed is left when all of the drop is new liquid.
+    row = next(i for i, p in enumerate(run.history["pending_momentum_z"]) if abs(p) > 0.1 * own)
+    before, after = (-run.history["particle_momentum_z"][i] / own for i in (row, row + 1))
+    record.at_most(f"{name}: velocity of the sphere after its drop has come, over that before", after / before, 0.9)
+    record.at_least(f"{name}: the same", after / before, DENSITY / (DENSITY + WATER))
     record.note(f"{name}: fastest fluid", max(run.history["max_speed"]), "m/s")
 
 
-def short(record, demvof):
+def short(record, demvof, uniform):
     box, level, fine = (0.02, 0.02, 0.06), 0.031, (20, 20, 60)
-    run = enter(scratch("replacement") / "short", demvof, box, level, fine, (4, 4, 12), 0.06, "replacement")
-    check_books(record, run, "24k cells", back=True)
-    x, heights = profile(run, box, fine)
-    record.note("24k cells: crater at the end", crater_depth(heights, level), "m")
-    run = enter(scratch("replacement") / "short_refined", demvof, box, level, (5, 5, 15), (4, 4, 12), 0.06, "replacement",
+    if uniform:
+        run = enter(scratch("replacement") / "short", demvof, box, level, fine, (4, 4, 12), 0.06, "replacement")
+        check_books(record, run, "24k cells", back=True)
+        x, heights = profile(run, box, fine)
+        record.note("24k cells: crater at the end", crater_depth(heights, level), "m")
+    run = enter(scratch("replacement") / "short_refined", demvof, box, level, (5, 5, 15), (4, 4, 12), 0.045, "replacement",
                 levels=2)
     check_books(record, run, "refined from 375 cells", back=True)
-    record.at_least("refined from 375 cells: changes of the mesh", run.results["cells"]["mesh_changes"], 3)
+    record.at_least("refined from 375 cells: changes of the mesh", run.results["cells"]["mesh_changes"], 5)
     record.at_most("refined from 375 cells: warnings of a drop in coarse cells",
                    sum("became liquid with" in line for line in run.results["warnings"]), 0)
 
@@ -142,11 +151,13 @@ def main():
     record = Record("replacement", "Phase interchange by replacement: a sphere enters water",
                     "A sphere of 4 mm (2000 kg/m3) at 0.5 m/s just above a water surface is replaced by a drop of its "
                     "volume and velocity on the fine mesh, and takes its place back under water. Liquid taken and "
-                    "given back equals its volume to 1e-10, the books of momentum close. Crater: depth, below the level "
+                    "given back equals its volume to round-off; its momentum comes out of the sphere's. Crater: depth, below the level "
                     "at the start, of alpha = 0.5 as seen from above on the axis through the impact (mean of the four "
                     "columns of cells around it) at 0.03 s; the paper's claim (7.2) is that 108k and 500k cells agree.",
                     f"tests/Alltest {'--verification ' if is_long else ''}-- -R pair.replacement{'_long' if is_long else ''}")
-    (long if is_long else short)(record, sys.argv[1])
+    short(record, sys.argv[1], uniform=is_long)
+    if is_long:
+        long(record, sys.argv[1])
     return record.write()
 
 
