@@ -84,7 +84,8 @@ class Scene {
     int rank;
     MPI_Comm_rank(world_, &rank);
     std::error_code none;
-    if (rank == 0) std::filesystem::remove_all(folder_, none);  // another one would meet the test's next scene
+    if (rank == 0)
+      std::filesystem::remove_all(folder_, none);  // another one would meet the test's next scene
   }
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
