@@ -11,6 +11,9 @@ AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_te
              "^unit_kernel_weights$": ["unit_kernel_weights"]}
 MAPPING = {"^unit_pieces$": ["unit_pieces"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
 FORCES = {r"^mock_dem_forces\..*\.1$": ["mock_dem_forces"], "^mock_dem_settling.1$": ["dem_side", "mock_fluid"]}
+START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}
+SETTLING = {"^pair.batch_settling$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
+DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
 FAULTS = [
@@ -91,7 +94,12 @@ FAULTS = [
     ("dem_side/forces.cpp", "gradients.other_impulse += step * other;", "", FORCES),
     ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
      "store(external[i], given + steady);", FORCES),
+    ("dem_side/forces.cpp", "if (half_step_ && !moves) {", "if (half_step_ && moves && !moves) {", START),
     # ---- between fine mesh and bulk grid
+    ("foam_side/run.cpp", "return end + (end - before);", "return end + 0 * (end - before);", SETTLING),
+    ("foam_side/run.cpp", "flow.porosity->goal.field() = goal;", "", DROP),
+    ("foam_side/bridge.cpp", "left_over_[k].collect({{cell}, {-impulse}}, particles);",
+     "left_over_[k].collect({{cell}, {impulse}}, particles);", DROP),
     ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
      "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", BED),
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),

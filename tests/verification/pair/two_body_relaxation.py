@@ -189,7 +189,7 @@ def judge(record, runs, long):
         some = [run for run in ours if run["schedule"] == schedule]
         record.at_most(f"conservative_implicit, {schedule}: runs that grow", int(sum(map(unstable, some))), 0)
         record.at_most(f"conservative_implicit, {schedule}: exchange of momentum open",
-                       max(run["exchange"] for run in some), 9e-15)
+                       max(run["exchange"] for run in some), 6e-13 if long else 9e-15)
         record.at_most(f"conservative_implicit, {schedule}: drift of total momentum, free particles",
                        max(run["momentum"] for run in some if run["held"] == 0), 5e-11 if long else 7e-12)
         free = [run for run in some if run["held"] == 0 and run["stiffness"] >= 1e3]
