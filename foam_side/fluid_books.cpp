@@ -4,7 +4,9 @@
 //   liquid in         -sum of dt phi_liquid                        over boundary faces
 //   weight             sum of dt eps rho V g                       over cells
 //   pressure          -sum of dt p S                               over boundary faces, p total
-//   shear              sum of dt eps mu_eff |S| d(u)/dn            over boundary faces
+//   shear              sum of dt eps mu_eff (|S| d(u)/dn + dev2(grad u^T).S)   over boundary faces; the
+//   second
+//                                                                  term of the velocity before
 //   carried in        -sum of dt rho_phi u                         over boundary faces
 //   surface tension    sum of dt eps V sigma kappa grad alpha      over cells
 //   left to particles -sum of dt (1 - eps) V grad p                over cells, grad p as particles are told
@@ -64,7 +66,7 @@ void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
     }
   }
   books.boundary_pressure += dt * to_vec3(pressure);
-  books.boundary_shear += dt * to_vec3(shear);
+  books.boundary_shear += dt * (to_vec3(shear) + books.explicit_stress);
   books.carried_in += dt * to_vec3(carried);
 }
 
@@ -96,6 +98,19 @@ void note_liquid_flux(Flow& flow, const surfaceScalarField& flux) {
   for_each_boundary_face(flow.mesh,
                          [&](label patch, label face) { inflow -= flux.boundaryField()[patch][face]; });
   books_of(flow).liquid_inflow = inflow;
+}
+
+void note_explicit_stress(Flow& flow, const volScalarField& density) {
+  const tmp<volScalarField> nu = flow.turbulence->nuEff();
+  const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
+  vector force = vector::zero;
+  forAll(flow.mesh.boundary(), patch) {
+    if (flow.mesh.boundary()[patch].coupled()) continue;
+    const Foam::tensorField stress(density.boundaryField()[patch] * nu().boundaryField()[patch] *
+                                   Foam::dev2(gradient().boundaryField()[patch].T()));
+    force += Foam::sum(flow.mesh.Sf().boundaryField()[patch] & stress);
+  }
+  books_of(flow).explicit_stress = to_vec3(force);
 }
 
 void keep_books(Flow& flow) {

@@ -13,6 +13,7 @@ struct Flow;
 struct FluidBooks {
   double liquid_inflow = 0;  // through the boundary in the present step, m3/s
   double liquid_in = 0;      // m3
+  Vec3 explicit_stress;      // mu (grad u)^T at the boundary, as the present step's equation has it, N
   Vec3 weight;               // N s, as the rest
   Vec3 boundary_pressure;    // total pressure: on the fluid, and through it on the particles
   Vec3 boundary_shear;       // viscous
@@ -23,6 +24,9 @@ struct FluidBooks {
 
 /// Notes what of the liquid's flux in this step (m3/s) comes in through the boundary.
 void note_liquid_flux(Flow& flow, const surfaceScalarField& flux);
+
+/// Notes the part of the stress in the momentum equation of this step that does not wait for its velocity.
+void note_explicit_stress(Flow& flow, const volScalarField& density);
 
 /// Enters the step that has just been done.
 void keep_books(Flow& flow);

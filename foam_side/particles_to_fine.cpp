@@ -170,17 +170,26 @@ scalarField ParticlesToFine::solid_fraction_of(const Vec3& position, double volu
 Foam::vectorField ParticlesToFine::solid_flux_density() const {
   std::vector<Vec3> totals(cut_.cells().cells().size());
   for (const std::vector<BulkParticles>& touched : touched_)
-    for (std::size_t slot = 0; slot < totals.size(); ++slot) {
-      const BulkParticles& cell = touched[slot];
-      if (cell.drag_factor > 0)  // mean velocity of its particles, weighted with their drag factors
-        totals[slot] += cell.solid_volume / cell.drag_factor * cell.drag_weighted_velocity;
-    }
+    for (std::size_t slot = 0; slot < totals.size(); ++slot) totals[slot] += touched[slot].solid_flux;
   std::vector<double> rows(3 * totals.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = totals[i / 3][static_cast<int>(i % 3)];
   const std::vector<double> density = cut_.remap().to_fine(rows, 3);
   Foam::vectorField result(flow_.mesh.nCells());
   forAll(result, cell) result[cell] = {density[3 * cell], density[3 * cell + 1], density[3 * cell + 2]};
   return result;
+}
+
+Foam::vectorField ParticlesToFine::solid_velocity() const {
+  Foam::vectorField flux(flow_.mesh.nCells(), Foam::Zero);
+  scalarField volume(flow_.mesh.nCells(), 0.0);
+  for (const std::vector<BulkParticles>& touched : touched_)
+    for (const Piece& piece : cut_.remap().pieces()) {
+      const double share = piece.volume / cut_.remap().bulk_volume()[piece.slot];
+      flux[piece.fine] += share * to_foam(touched[piece.slot].solid_flux);
+      volume[piece.fine] += share * touched[piece.slot].solid_volume;
+    }
+  forAll(flux, cell) if (volume[cell] > 0) flux[cell] /= volume[cell];
+  return flux;
 }
 
 void ParticlesToFine::spread_sources() {

@@ -53,6 +53,9 @@ class ParticlesToFine {
   /// `volume_adding`).
   Foam::vectorField solid_flux_density() const;
 
+  /// Mean velocity of the particles in each fine cell, m/s; 0 where there are none.
+  Foam::vectorField solid_velocity() const;
+
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk cell with
   /// the weights of sharing_weights.hpp, as they are now. In every fluid step.
   void spread_sources();

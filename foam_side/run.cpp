@@ -60,9 +60,11 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   const bool moves = extras(flow).motion != MeshMotion::never;
   if (!moves && refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
-    if (flow.porosity)
+    if (flow.porosity) {
+      set_solid_velocity(flow, bridge->particles_to_fine().solid_velocity());
       renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
                      bridge->particles_to_fine().void_fraction(1));
+    }
     settle_flux(flow);
   }
   update_porosity(flow);
@@ -118,7 +120,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
     if (world.rank() == 0) go_back_to(options.out, *start);
   } else {
-    if (flow.porosity) set_initial_porosity(flow, to_fine.void_fraction());
+    if (flow.porosity) {
+      set_solid_velocity(flow, to_fine.solid_velocity());
+      set_initial_porosity(flow, to_fine.void_fraction());
+    }
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
     if (pressure_says_nothing(flow)) balance_pressure(flow);
     record.start(flow, &first.report);
@@ -154,7 +159,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
       replace_particles(flow, droplets, solid_fraction_of, replacement);
       to_fine.note(droplets);
       to_fine.spread_sources();  // the flux is fitted to the new window with its drag
-      if (flow.porosity) set_porosity_target(flow, to_fine.void_fraction());
+      if (flow.porosity) {
+        set_solid_velocity(flow, to_fine.solid_velocity());
+        set_porosity_target(flow, to_fine.void_fraction());
+      }
       if (flow.ghost) set_ghost_target(flow, to_fine.void_fraction(), to_fine.solid_flux_density());
       while (step_fluid(flow, &bridge)) {
       }
