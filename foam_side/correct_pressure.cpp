@@ -97,8 +97,8 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
       flow.porosity ? flow.phi - flow.porosity->carried : tmp<surfaceScalarField>(flow.phi);
   const Foam::vectorField push = (*flow.reconstruct)([&](const auto& at, label cell) {
     const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell], w = at(past());
-    const scalar pressure = ((1 + k) * w - at(c.eps_f) * at(transported) - k * at(c.reference)) / e -
-                            at(c.push) - at(c.gap) * (w - at(c.reference));
+    const scalar pressure =
+        (w - at(c.eps_f) * at(transported) + at(c.share) * k * (w - at(c.reference))) / e - at(c.push);
     return at(c.push) + e * rAU[cell] / at(*system.response) * pressure;
   });
   const Foam::vectorField& reference = flow.source->reference.field();

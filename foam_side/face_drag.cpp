@@ -27,7 +27,7 @@ FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
                                    : surfaceScalarField::New("eps_f", flow.mesh,
                                                              dimensionedScalar("one", Foam::dimless, 1))),
       resistance("resistance", 0 * eps_f),
-      gap("gap", 0 * eps_f),
+      share("share", 1 * eps_f),
       reference("reference", 0 * flow.phi),
       push("push", 0 * flow.phi),
       stiffness(flow.source->coefficient.field() / A.primitiveField()) {
@@ -49,7 +49,7 @@ FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
   const surfaceScalarField drag_f(fvc::interpolate(drag));
   const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
   resistance = drag_f / inertia_f;
-  gap = fvc::interpolate(relative) - resistance;
+  share = resistance / (fvc::interpolate(relative) + dimensionedScalar("tiny", Foam::dimless, Foam::VSMALL));
   reference = fvc::dotInterpolate(flow.mesh.Sf(), towards) / (drag_f + tiny);
   if (flow.porosity) {
     const volScalarField eps_drag("drag", with_boundary(flow.porosity->eps()) * drag);  // C/eps

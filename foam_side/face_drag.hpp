@@ -31,19 +31,19 @@ struct Flow;
 ///
 /// and the push of the pressure on the cell as seen from its own side of the face is
 ///
-///   ((1 + k) w - e (mean(h) - v).S - k R)/eps - B - d
+///   (w - e (mean(h) - v).S + s k (w - R))/eps - B,   s = kappa/mean(k/eps)
 ///
-/// In a uniform medium this is -a grad p.S. The mean of both sides has to be the face's, or momentum is lost
-/// at the face: d = (mean(k/eps) - kappa) (w - R) is what they differ by where A/eps jumps.
-/// With one pressure gradient for both sides instead, the free fluid beside a bed is pushed by half the bed's
-/// pressure gradient (velocity errors of 125 % at k = 100; tests/verification/foam_flow/porous_plug.cpp).
+/// In a uniform medium this is -a grad p.S. The mean of both sides is the face's, or momentum would be lost
+/// there: hence s, which differs from 1 where A/eps jumps. With one pressure gradient for both sides instead,
+/// the free fluid beside a bed is pushed by half the bed's pressure gradient (velocity errors of 125 % at k =
+/// 100; tests/verification/foam_flow/porous_plug.cpp).
 struct FaceDrag {
   /// A: diagonal of the momentum matrix per volume, without drag, kg/(m3 s).
   FaceDrag(const Flow& flow, const volScalarField& A);
 
   surfaceScalarField eps_f;       // e, -
   surfaceScalarField resistance;  // kappa, -
-  surfaceScalarField gap;         // mean(k/eps) - kappa, -
+  surfaceScalarField share;       // s, -
   surfaceScalarField reference;   // R, m3/s
   surfaceScalarField push;        // B, m3/s
   scalarField stiffness;          // k, -

@@ -131,7 +131,8 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
 /// set again, with the pressure that balances them. Before the void fraction; part of open_flow.
 void refine_start(Flow& flow);
 
-/// Mean velocity of the particles, one value per cell, m/s; before the next two.
+/// Mean velocity of the particles in the window in which they displaced what comes next, one value per cell,
+/// m/s.
 void set_solid_velocity(Flow& flow, const Foam::vectorField& velocity);
 
 /// The void fraction at the start: a state, not a change. eps: one value per cell.

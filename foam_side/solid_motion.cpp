@@ -40,9 +40,10 @@ tmp<surfaceScalarField> missed_by_means(Flow& flow, const surfaceScalarField& so
   Foam::fvScalarMatrix equation(Foam::fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
                                     mobility, mesh.nonOrthDeltaCoeffs(), potential) == fvc::div(solid_flux));
   equation.source() -= mesh.V().field() * porosity.rate.field();
-  const double most = Foam::gMax(Foam::mag(equation.diag())());
+  const tmp<volScalarField> sum = fvc::surfaceSum(mobility * mesh.nonOrthDeltaCoeffs());
+  const double most = Foam::gMax(sum().primitiveField());
   if (most == 0) return 0 * mobility;
-  for (scalar& diagonal : equation.diag()) diagonal = (1 + slack) * diagonal - slack * slack * most;
+  equation.diag() -= slack * (sum().primitiveField() + slack * most);
   Foam::dictionary solver;
   solver.add("solver", Foam::word("PCG"));
   solver.add("preconditioner", Foam::word("DIC"));
