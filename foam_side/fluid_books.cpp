@@ -9,8 +9,6 @@
 //                                                                  term of the velocity before
 //   carried in        -sum of dt rho_phi u                         over boundary faces
 //   surface tension    sum of dt eps V sigma kappa grad alpha      over cells
-//   left to particles -sum of dt (1 - eps) V grad p                over cells, grad p as particles are told
-//   it
 //
 // On meshes of equal hexahedra the cells' pressure gradients add up to the boundary's pressure exactly.
 
@@ -77,17 +75,12 @@ void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
   forAll(volume, cell) mass += (eps ? (*eps)[cell] : 1.0) * flow.rho[cell] * volume[cell];
   books.weight += dt * mass * to_vec3(flow.g.value());
 
-  vector left = vector::zero, tension = vector::zero;
-  if (eps) {
-    const Foam::vectorField gradient = pressure_gradient(flow);
-    forAll(volume, cell) left -= (1 - (*eps)[cell]) * volume[cell] * gradient[cell];
-  }
+  vector tension = vector::zero;
   if (flow.scene.surface_tension) {
     const surfaceScalarField pull(flow.mixture.surfaceTensionForce() * flow.mesh.magSf());
     const Foam::vectorField force = (*flow.reconstruct)([&](const auto& at, label) { return at(pull); });
     forAll(volume, cell) tension += (eps ? (*eps)[cell] : 1.0) * volume[cell] * force[cell];
   }
-  books.left_to_particles += dt * to_vec3(left);
   books.surface_tension += dt * to_vec3(tension);
 }
 
@@ -126,7 +119,7 @@ FluidBooks take_books(Flow& flow) {
   FluidBooks taken = std::exchange(books_of(flow), FluidBooks{});
   Foam::reduce(taken.liquid_in, Foam::sumOp<double>());
   for (Vec3* part : {&taken.weight, &taken.boundary_pressure, &taken.boundary_shear, &taken.carried_in,
-                     &taken.surface_tension, &taken.left_to_particles})
+                     &taken.surface_tension})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   return taken;
 }

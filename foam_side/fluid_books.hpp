@@ -19,7 +19,6 @@ struct FluidBooks {
   Vec3 boundary_shear;       // viscous
   Vec3 carried_in;           // momentum of what flows through the boundary
   Vec3 surface_tension;      // sum over the cells
-  Vec3 left_to_particles;  // what the pressure does to the particles' share of the cells, -(1 - eps) V grad p
 };
 
 /// Notes what of the liquid's flux in this step (m3/s) comes in through the boundary.

@@ -258,6 +258,37 @@ std::vector<CellValues<Vec3>> ParticlesToFine::collect_impulse() {
   return taken;
 }
 
+// -(1 - eps) V grad p dt of a fine cell goes to its pieces as their bulk cells have solid of each fluid.
+std::vector<CellValues<Vec3>> ParticlesToFine::left_to_particles(const Foam::vectorField& gradient) const {
+  const std::vector<Piece>& pieces = cut_.remap().pieces();
+  const int fluids = static_cast<int>(state_.size());
+  std::vector<std::vector<double>> part(state_.size());  // of each piece
+  std::vector<double> sum(static_cast<std::size_t>(flow_.mesh.nCells()), 0.0);
+  for (int k = 0; k < fluids; ++k) {
+    const std::vector<double> before = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
+    const std::vector<double> volume = fluids > 1 ? surface_.volumes(k) : cut_.remap().bulk_volume();
+    for (const Piece& piece : pieces) {
+      const double solid = before[piece.slot] + touched_[k][piece.slot].solid_volume;
+      const double own = surface_.share(k, piece) * piece.volume;
+      part[k].push_back(own > 0 ? own / volume[piece.slot] * solid : 0);
+      sum[piece.fine] += part[k].back();
+    }
+  }
+  const double dt = flow_.time.deltaTValue();
+  std::vector<CellValues<Vec3>> left;
+  for (int k = 0; k < fluids; ++k) {
+    std::vector<Vec3> impulse(cut_.cells().cells().size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const label cell = pieces[i].fine;
+      if (sum[cell] > 0)
+        impulse[pieces[i].slot] -= part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) *
+                                   flow_.mesh.V()[cell] * to_vec3(gradient[cell]);
+    }
+    left.push_back(cut_.cells().sum_to_owners(impulse));
+  }
+  return left;
+}
+
 void ParticlesToFine::end_window() {
   implicit_impulse_ = std::exchange(collected_sum_, Vec3{});
 }

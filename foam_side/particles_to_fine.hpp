@@ -65,6 +65,10 @@ class ParticlesToFine {
   /// mesh, because new cells cannot tell which bulk cell it came from.
   std::vector<CellValues<Vec3>> collect_impulse();
 
+  /// What the pressure of the step just done left to the particles of each bulk cell, N s, by fluid: cells
+  /// owned by this rank. gradient: grad p, per fine cell.
+  std::vector<CellValues<Vec3>> left_to_particles(const Foam::vectorField& gradient) const;
+
   /// The window's impulses are complete.
   void end_window();
 

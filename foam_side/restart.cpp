@@ -194,7 +194,8 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"left_over", as_json(fluid.left_over)},
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
-                        {"told", as_json(fluid.told)}});
+                        {"told", as_json(fluid.told)},
+                        {"owed_pressure", as_json(fluid.owed_pressure)}});
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().told())},
@@ -271,7 +272,8 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
                           cell_values<LeftOver::Owed>(fluid.at("left_over")),
                           cell_values<Vec3>(fluid.at("felt_shift")),
                           cell_values<double>(fluid.at("solid_volume_before")),
-                          cell_values<ToldFluid::Cell>(fluid.at("told"))});
+                          cell_values<ToldFluid::Cell>(fluid.at("told")),
+                          cell_values<LeftOver::Owed>(fluid.at("owed_pressure"))});
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));

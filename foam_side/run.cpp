@@ -79,6 +79,7 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
   end_step(flow);
+  if (bridge) bridge->collect_pressure();
   if (bridge && flow.scene.two_fluids)
     bridge->collect_impulse();  // before the surface moves on to other fine cells
   return true;
@@ -96,7 +97,6 @@ void enter_books(Flow& flow, FluidReport& report) {
   report.outside.boundary_shear = books.boundary_shear;
   report.outside.carried_in = books.carried_in;
   report.outside.surface_tension = books.surface_tension;
-  report.left_to_particles = books.left_to_particles;
 }
 
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
@@ -183,6 +183,11 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
     done.negative_cells = to_fine.spread().negative_cells;
     enter_books(flow, done.fluid);
+    const Bridge::PressureImpulses pressure = bridge.pressure_impulses();
+    done.fluid.told_pressure = pressure.told;
+    done.fluid.owed_pressure = pressure.owed;
+    done.fluid.returned_pressure = pressure.returned;
+    done.fluid.outside.surface_tension += pressure.tension;
     if (replaces) {
       done.replacement = replacement;
       done.fluid.replaced_liquid = replacement.liquid();
