@@ -6,7 +6,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, particle_states, scratch
+from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, momentum_of_everything, particle_states, scratch
 from box_fields import output_times, vector_field
 from record import Record
 
@@ -94,7 +94,7 @@ def slanted_floor():
     """Beads fall on a floor that rises along x: blockMesh's slanted block, and an STL plane in LIGGGHTS."""
     length, width, rise, diameter = 0.06, 0.036, 0.012, 5e-3
     case = BoxCase(scratch("boundaries/slanted_floor"), upper=(length, width, 0.06), fine=(10, 6, 10),
-                   bulk=(5, 3, 5), end_time=0.3, window=1e-3, dem_step=2e-5, floor_rise=rise, margin=0.01,
+                   bulk=(5, 3, 5), end_time=0.3, window=1e-3, dem_step=2e-5, floor_rise=rise, margin=0.01, momentum_judged=False,
                    contacts=True, stiffness=500, pimple="nNonOrthogonalCorrectors 2;")
     case.sides["z+"] = Open(alpha=1)
     slope = rise / length
@@ -208,7 +208,7 @@ def bed_on_the_inlet():
     edge, speed = 0.012, 0.02  # superficial velocity, m/s
     for name, inlet in (("velocity", (0, 0, speed)),
                         ("flow rate", f"flowRateInletVelocity; volumetricFlowRate {speed * edge**2:.17g}; "
-                                      "value uniform (0 0 0)")):
+                                      f"value uniform (0 0 {speed})")):
         case = BoxCase(scratch(f"boundaries/bed_on_the_inlet_{name.split()[0]}"), upper=(edge, edge, 0.036),
                        fine=(2, 2, 12), bulk=(2, 2, 6), end_time=0.04, window=2e-3, gravity=(0, 0, 0), tolerance=1e-12,
                        forces=[{"drag": "gidaspow"}, "pressure_gradient"])
@@ -253,4 +253,5 @@ TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_o
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()
+momentum_of_everything(RECORD)
 sys.exit(RECORD.write())

@@ -10,7 +10,7 @@ import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Particle, command_line, scratch
+from box_case import BoxCase, Cyclic, Particle, command_line, momentum_of_everything, scratch
 from box_fields import cell_field, output_times, vector_field
 from record import Record
 
@@ -71,6 +71,7 @@ def main():
         some = [run for run in runs if run["schedule"] == "concurrent"]
         record.at_most("slab, concurrent: velocity error anywhere, over U, worst", max(run["error"] for run in some), 1e-2)
     record.at_most("drift of the momentum of everything along U, worst", max(run["drift"] for run in runs), 1e-13)
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

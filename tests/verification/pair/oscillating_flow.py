@@ -16,7 +16,7 @@ import concurrent.futures
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Outlet, Particle, Slip, command_line, scratch
+from box_case import BoxCase, Cyclic, Outlet, Particle, Slip, command_line, momentum_of_everything, scratch
 from record import Record
 
 
@@ -128,6 +128,7 @@ def main():
         record.note(f"{name}: kappa/sqrt(w/nu), real part, exact {exact.real:.4f}", got.real)
         record.note(f"{name}: imaginary part, exact {exact.imag:.4f}", got.imag)
         record.at_most(f"{name}: error", abs(got / exact - 1), 0.012)
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 
