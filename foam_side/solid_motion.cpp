@@ -42,7 +42,7 @@ tmp<surfaceScalarField> missed_by_means(Flow& flow, const surfaceScalarField& so
   equation.source() -= mesh.V().field() * porosity.rate.field();
   const tmp<volScalarField> sum = fvc::surfaceSum(mobility * mesh.nonOrthDeltaCoeffs());
   const double most = Foam::gMax(sum().primitiveField());
-  if (most == 0) return 0 * mobility;
+  if (most == 0) return 0 * porosity.along;
   equation.diag() -= slack * (sum().primitiveField() + slack * most);
   Foam::dictionary solver;
   solver.add("solver", Foam::word("PCG"));
