@@ -158,7 +158,7 @@ std::vector<Bridge::State> Bridge::state() const {
   for (std::size_t k = 0; k < told_.size(); ++k) {
     const ParticlesToFine::InFluid& fluid = particles_to_fine_.state()[k];
     state.push_back({fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells(),
-                     owed_pressure_[k].owed()});
+                     owed_pressure_[k].owed(), owed_pressure_[k].on_its_way()});
   }
   return state;
 }
@@ -172,7 +172,7 @@ void Bridge::go_on_from(std::vector<State> state) {
                          std::move(state[k].solid_volume_before)});
     left_over_[k].go_on_from(std::move(state[k].left_over));
     told_[k].go_on_from(std::move(state[k].told));
-    owed_pressure_[k].go_on_from(state[k].owed_pressure);
+    owed_pressure_[k].go_on_from(state[k].owed_pressure, state[k].returned_pressure);
   }
   particles_to_fine_.go_on_from(std::move(particles));
 }

@@ -61,6 +61,10 @@ void read_components(const json& state, const char* name, Foam::vectorField& val
       row.at(static_cast<std::size_t>(3 * cell + axis));
 }
 
+Vec3 vec3(const json& row) {
+  return {row.at(0), row.at(1), row.at(2)};
+}
+
 json flow_state(const Flow& flow, const ForceParameters& forces) {
   json state = {{"time_step", flow.time.deltaTValue()},
                 {"longest_step", flow.clock.limit},
@@ -195,7 +199,9 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
                         {"told", as_json(fluid.told)},
-                        {"owed_pressure", as_json(fluid.owed_pressure)}});
+                        {"owed_pressure", as_json(fluid.owed_pressure)},
+                        {"returned_pressure",
+                         {fluid.returned_pressure.x, fluid.returned_pressure.y, fluid.returned_pressure.z}}});
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().told())},
@@ -268,12 +274,12 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
     const json state = json::from_cbor(stream);
     std::vector<Bridge::State> exchange;
     for (const json& fluid : state.at("exchange"))
-      exchange.push_back({cell_values<BulkParticles>(fluid.at("particles")),
-                          cell_values<LeftOver::Owed>(fluid.at("left_over")),
-                          cell_values<Vec3>(fluid.at("felt_shift")),
-                          cell_values<double>(fluid.at("solid_volume_before")),
-                          cell_values<ToldFluid::Cell>(fluid.at("told")),
-                          cell_values<LeftOver::Owed>(fluid.at("owed_pressure"))});
+      exchange.push_back(
+          {cell_values<BulkParticles>(fluid.at("particles")),
+           cell_values<LeftOver::Owed>(fluid.at("left_over")), cell_values<Vec3>(fluid.at("felt_shift")),
+           cell_values<double>(fluid.at("solid_volume_before")),
+           cell_values<ToldFluid::Cell>(fluid.at("told")),
+           cell_values<LeftOver::Owed>(fluid.at("owed_pressure")), vec3(fluid.at("returned_pressure"))});
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));

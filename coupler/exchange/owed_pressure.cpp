@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "coupler/exchange/momentum_exchange.hpp"
 
@@ -37,6 +38,7 @@ void OwedPressure::collect(const CellValues<Vec3>& left) {
 void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
   for (const auto& [cell, impulse] : open_) owed_[cell].impulse += impulse;
   open_.clear();
+  returned_ = std::exchange(on_its_way_, Vec3{});
   for (auto owed = owed_.begin(); owed != owed_.end();) {
     const BulkParticles* here = find(particles, owed->first);
     owed->second.solid_volume = here ? here->solid_volume : HUGE_VAL;  // no particle takes a part of it
@@ -45,7 +47,6 @@ void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
 }
 
 void OwedPressure::return_to_fluid(CellValues<BulkParticles>& particles) {
-  returned_ = {};
   for (auto& [cell, owed] : owed_) {
     const auto place = std::lower_bound(particles.cells.begin(), particles.cells.end(), cell);
     const auto slot = place - particles.cells.begin();
@@ -59,12 +60,12 @@ void OwedPressure::return_to_fluid(CellValues<BulkParticles>& particles) {
     }
     particles.values[slot].drag_impulse -= back;
     owed.impulse -= back;
-    returned_ += back;
+    on_its_way_ += back;
   }
 }
 
 Vec3 OwedPressure::owed_in_all() const {
-  Vec3 sum;
+  Vec3 sum = on_its_way_;
   for (const auto& [cell, owed] : owed_) sum += owed.impulse;
   return sum;
 }
@@ -78,8 +79,9 @@ CellValues<LeftOver::Owed> OwedPressure::owed() const {
   return all;
 }
 
-void OwedPressure::go_on_from(const CellValues<LeftOver::Owed>& owed) {
+void OwedPressure::go_on_from(const CellValues<LeftOver::Owed>& owed, const Vec3& on_its_way) {
   owed_.clear();
+  on_its_way_ = on_its_way;
   for (std::size_t i = 0; i < owed.cells.size(); ++i) owed_[owed.cells[i]] = owed.values[i];
 }
 

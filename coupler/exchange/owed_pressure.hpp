@@ -40,18 +40,20 @@ class OwedPressure {
   /// cell, as if they had been given so much less drag; cells that they have left are put in for it.
   void return_to_fluid(CellValues<BulkParticles>& particles);
 
-  /// Sums, N s: owed at the end of a window, told in it, and gone back to the fluid since the window before.
+  /// Sums, N s: owed at the end of a window, what is on its way back to the fluid included; told in it; and
+  /// gone back to the fluid in it: a concurrent fluid gets in its next window what particles have left.
   Vec3 owed_in_all() const;
   const Vec3& told() const { return told_; }
   const Vec3& returned() const { return returned_; }
+  const Vec3& on_its_way() const { return on_its_way_; }
 
   CellValues<LeftOver::Owed> owed() const;
-  void go_on_from(const CellValues<LeftOver::Owed>& owed);
+  void go_on_from(const CellValues<LeftOver::Owed>& owed, const Vec3& on_its_way);
 
  private:
   std::map<CellId, LeftOver::Owed> owed_;
   std::map<CellId, Vec3> open_;  // of this window: left less told so far, N s
-  Vec3 told_, returned_;
+  Vec3 told_, returned_, on_its_way_;
 };
 
 }  // namespace demvof

@@ -127,7 +127,8 @@ TEST(Books, ReplacedParticlesAreLiquid) {
 /// Fluid and particles together: of what the fluid's pressure leaves to the particles they get a part now and
 /// are owed the rest.
 TEST(Books, MomentumOfEverything) {
-  Books books(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid, {}});
+  Books books(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0},
+              {{}, {}, liquid, {}});
   Reports r = reports({1, 2, 3}, {}, {0.25, 0, -1}, {});
   OutsideImpulses& outside = r.fluid.outside;
   outside.fluid_weight = {0, 0, -16};
@@ -150,7 +151,8 @@ TEST(Books, MomentumOfEverything) {
   EXPECT_EQ(books.pending().z, books.state().pending.z + 0.25);
 
   r.fluid.momentum += {0, 2, 0};  // from nowhere
-  Books faulty(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid, {}});
+  Books faulty(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0},
+               {{}, {}, liquid, {}});
   faulty.window(r.fluid, r.particles);
   EXPECT_NEAR(faulty.momentum().worst().y, 2 / norm(outside.boundary_pressure), 1e-15);
   EXPECT_LT(faulty.momentum().worst().z, 1e-15);
