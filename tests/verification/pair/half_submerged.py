@@ -54,7 +54,7 @@ def main():
                          log="xy")
             record.curve("gas", "density ratio", "largest integral of u.u in the gas, m5/s2", series, RATIOS, gas,
                          log="xy")
-    momentum_of_everything(record)
+    momentum_of_everything(record, 1.4e-6)  # the open side turns from outlet to inlet within a step
     return record.write()
 
 
