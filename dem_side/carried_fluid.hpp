@@ -46,6 +46,7 @@ struct CarriedContacts {
 
 struct CarriedRow {
   CarriedContacts contacts;
+  Vec3 path;  // covered in this window, m
   CarriedSurface surface;
   CarriedFluid fluid[2];  // liquid, gas
 

@@ -23,6 +23,7 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
     const double response = drag_response(tangent, mass, window_, held, added, other);
     BulkParticles& here = contributions[i];
     here.solid_volume = row.share(k) * sphere_volume(radius);
+    here.solid_flux = here.solid_volume * (window_ > 0 ? row.path / window_ : vec3(particles.velocity[i]));
     if (dem_.moves(particles.mask[i])) {
       const double inertia = mass + added;
       const double theta = inertial_share(tangent + other, inertia, window_);

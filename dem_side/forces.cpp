@@ -256,6 +256,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     const Vec3 contact = vec3(particles.force[i]) - weight;
     row.contacts.touching += touches(contact, weight);
     ++row.contacts.evaluations;
+    if (!half_step_) row.path += step * velocity;  // that of the half step: what the position has moved with
     if (moves && !half_step_) {  // Dem::set_up() has given half a step of these
       row.contacts.impulse += step * contact;
       sums.contact += contact;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "foam_side/pressure_gradient.hpp"
 #include "foam_side/vectors.hpp"
 
 namespace demvof {
@@ -27,13 +28,18 @@ std::vector<CellId> united(const List& fluids, const Cells& cells_of) {
 
 Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& grid,
                const BulkPartition& partition, MPI_Comm world)
-    : cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
+    : flow_(flow),
+      owes_pressure_(flow.porosity && parameters.forces.pressure_gradient),
+      tells_jump_(parameters.forces.capillary),
+      window_(parameters.coupling.window),
+      cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
       surface_(flow, cut_),
       fluid_to_bulk_(flow, cut_, surface_, parameters.forces, parameters.coupling.sharing),
       particles_to_fine_(flow, cut_, surface_, parameters.coupling),
       left_over_(surface_.fluids()),
       told_(surface_.fluids(), ToldFluid({parameters.coupling.schedule, parameters.coupling.exchange,
                                           parameters.coupling.window, flow.porosity != nullptr})),
+      owed_pressure_(surface_.fluids()),
       shift_(surface_.fluids()) {}
 
 void Bridge::remap() {
@@ -44,7 +50,10 @@ void Bridge::remap() {
 }
 
 void Bridge::take(std::vector<CellValues<BulkParticles>> particles) {
-  for (std::size_t k = 0; k < particles.size(); ++k) left_over_[k].return_to_fluid(particles[k]);
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    left_over_[k].return_to_fluid(particles[k]);
+    owed_pressure_[k].return_to_fluid(particles[k]);
+  }
   cut_.activate(united(
       particles, [](const auto& fluid) -> const auto& { return fluid.cells; }));
   std::vector<ParticlesToFine::InFluid> taken;
@@ -75,21 +84,57 @@ bool Bridge::owe(const Vec3& position, const Vec3& impulse) {
   return false;
 }
 
+void Bridge::collect_pressure() {
+  if (!flow_.porosity) return;
+  const Foam::vectorField gradient = pressure_gradient(flow_, tells_jump_);
+  const std::vector<CellValues<Vec3>> left = particles_to_fine_.left_to_particles(gradient);
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (owes_pressure_)
+      owed_pressure_[k].collect(left[k]);
+    else
+      for (const Vec3& impulse : left[k].values) unclaimed_ += impulse;
+  }
+  if (!flow_.scene.surface_tension || tells_jump_) return;
+  const Foam::vectorField whole = pressure_gradient(flow_, true);
+  const double dt = flow_.time.deltaTValue();
+  forAll(whole, cell) tension_ +=
+      dt * (1 - flow_.porosity->eps[cell]) * flow_.mesh.V()[cell] * to_vec3(whole[cell] - gradient[cell]);
+}
+
+Bridge::PressureImpulses Bridge::pressure_impulses() const {
+  PressureImpulses all;
+  for (const OwedPressure& fluid : owed_pressure_) {
+    all.told += fluid.told();
+    all.owed += fluid.owed_in_all();
+    all.returned += fluid.returned();
+  }
+  all.tension = tension_;
+  all.told += unclaimed_;
+  for (Vec3* part : {&all.told, &all.owed, &all.returned, &all.tension})
+    *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
+  return all;
+}
+
 void Bridge::end_window() {
   collect_impulse();
   particles_to_fine_.end_window();
   for (std::size_t k = 0; k < left_over_.size(); ++k)
     left_over_[k].end_window(particles_to_fine_.particles(static_cast<int>(k)));
+  for (std::size_t k = 0; k < left_over_.size(); ++k)
+    owed_pressure_[k].end_window(particles_to_fine_.particles(static_cast<int>(k)));
 }
 
 std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
   surface_.look();
+  tension_ = unclaimed_ = {};
   std::vector<CellValues<BulkFluid>> fluids;
   int k = 0;
   for (FluidToBulk::Means& means : fluid_to_bulk_.means()) {
     shift_[k] = {means.fluid.cells, std::move(means.shift)};
     left_over_[k].hand_over(means.fluid);
     told_[k].relax(means.fluid, means.fluid_volume, particles_to_fine_.particles(k));
+    if (owes_pressure_)
+      owed_pressure_[k].tell(means.fluid, told_[k].factors(), particles_to_fine_.particles(k), window_);
     fluids.push_back(std::move(means.fluid));
     ++k;
   }
@@ -128,8 +173,8 @@ std::vector<Bridge::State> Bridge::state() const {
   std::vector<State> state;
   for (std::size_t k = 0; k < told_.size(); ++k) {
     const ParticlesToFine::InFluid& fluid = particles_to_fine_.state()[k];
-    state.push_back(
-        {fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells()});
+    state.push_back({fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells(),
+                     owed_pressure_[k].owed(), owed_pressure_[k].on_its_way()});
   }
   return state;
 }
@@ -143,6 +188,7 @@ void Bridge::go_on_from(std::vector<State> state) {
                          std::move(state[k].solid_volume_before)});
     left_over_[k].go_on_from(std::move(state[k].left_over));
     told_[k].go_on_from(std::move(state[k].told));
+    owed_pressure_[k].go_on_from(state[k].owed_pressure, state[k].returned_pressure);
   }
   particles_to_fine_.go_on_from(std::move(particles));
 }

@@ -3,6 +3,7 @@
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/exchange/left_over.hpp"
+#include "coupler/exchange/owed_pressure.hpp"
 #include "coupler/exchange/told_fluid.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/fluid_to_bulk.hpp"
@@ -40,6 +41,9 @@ class Bridge {
   /// The same on every rank. After take().
   bool owe(const Vec3& position, const Vec3& impulse);
 
+  /// Notes what the pressure of the step just done left to the particles.
+  void collect_pressure();
+
   /// The rest of the window's, and then what is owed as a whole.
   void end_window();
 
@@ -53,6 +57,13 @@ class Bridge {
   /// Of what the fluid owes at the end of a window, that which could not be handed over in it, N s. Over all
   /// ranks.
   Vec3 kept_left_over() const;
+  /// Of the pressure, over all ranks, N s: told to the particles in the window (to those that feel none: left
+  /// to them), owed to them at its end, and gone back to the fluid in it; surface tension that acted on their
+  /// share of the fine cells in place of them.
+  struct PressureImpulses {
+    Vec3 told, owed, returned, tension;
+  };
+  PressureImpulses pressure_impulses() const;
   /// Over all ranks.
   CellId active_cells() const;
   ToldFluid::Relaxed relaxed() const;
@@ -64,12 +75,20 @@ class Bridge {
     CellValues<Vec3> felt_shift;
     CellValues<double> solid_volume_before;
     CellValues<ToldFluid::Cell> told;
+    CellValues<LeftOver::Owed> owed_pressure;
+    Vec3 returned_pressure;  // on its way to the fluid
   };
   std::vector<State> state() const;  // by fluid
   /// Goes on from the state at the end of a window. After the particles of that time have been taken.
   void go_on_from(std::vector<State> state);
 
  private:
+  Flow& flow_;
+  bool owes_pressure_;  // the fluid has a void fraction and its particles feel the pressure
+  bool tells_jump_;     // of the surface: with the capillary force
+  double window_;       // s
+  Vec3 tension_;        // in this window, this rank, N s
+  Vec3 unclaimed_;      // what the pressure left to particles that feel none, likewise
   BulkCut cut_;
   SurfaceToBulk surface_;
   FluidToBulk fluid_to_bulk_;
@@ -77,6 +96,7 @@ class Bridge {
   // By fluid:
   std::vector<LeftOver> left_over_;
   std::vector<ToldFluid> told_;
+  std::vector<OwedPressure> owed_pressure_;
   std::vector<CellValues<Vec3>> shift_;  // velocity last told minus the mean that the exchange works on, m/s
 };
 

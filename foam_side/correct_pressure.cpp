@@ -11,6 +11,7 @@
 
 #include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
 #include "inletOutletFvPatchFields.H"
 #include "transformFvPatchFields.H"
@@ -28,13 +29,14 @@ tmp<scalarField> rate_to_serve(const Flow& flow) {
 
 void update_face_velocity(Flow& flow) {
   // phi is still that in space.
-  if (flow.velocity_flux) *flow.velocity_flux = flow.phi / flow.pressure_system.face_drag->eps_f;
+  if (flow.velocity_flux) *flow.velocity_flux = velocity_flux_of(flow, flow.phi);
   if (!flow.face_velocity) return;
   const surfaceVectorField normal(flow.mesh.Sf() / flow.mesh.magSf());
   surfaceVectorField& face_velocity = *flow.face_velocity;
   face_velocity = fvc::interpolate(flow.U);
-  tmp<surfaceScalarField> speed = flow.phi / flow.mesh.magSf();
-  if (flow.porosity) speed.ref() /= flow.pressure_system.face_drag->eps_f;
+  const tmp<surfaceScalarField> speed =
+      (flow.porosity ? velocity_flux_of(flow, flow.phi) : tmp<surfaceScalarField>(flow.phi)) /
+      flow.mesh.magSf();
   face_velocity += normal * (speed - (normal & face_velocity));
 }
 
@@ -42,8 +44,10 @@ void update_face_velocity(Flow& flow) {
 tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
   if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
   const FaceDrag& c = *flow.pressure_system.face_drag;
-  return tmp<surfaceScalarField>::New(
+  tmp<surfaceScalarField> flux = tmp<surfaceScalarField>::New(
       "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
+  if (flow.porosity) flux.ref() += flow.porosity->carried;
+  return flux;
 }
 
 /// Makes what leaves a box without a pressure boundary fit what enters it. Through patches with a given
@@ -78,7 +82,7 @@ void update_velocity(Flow& flow, const volVectorField& h, const surfaceScalarFie
   forAll(U, cell) U[cell] = h[cell] + rAU[cell] * push[cell];
 }
 
-/// transported: H_f/e of face_drag.hpp.
+/// transported: (mean(h) - v).S of face_drag.hpp.
 ///
 /// The pressure gradient of the cell itself is what this leaves to it (pressure_gradient.cpp):
 ///
@@ -89,10 +93,12 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
   const FaceDrag& c = *system.face_drag;
   const scalarField& rAU = system.inverse_diagonal->primitiveField();
   const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
+  const tmp<surfaceScalarField> past =  // w
+      flow.porosity ? flow.phi - flow.porosity->carried : tmp<surfaceScalarField>(flow.phi);
   const Foam::vectorField push = (*flow.reconstruct)([&](const auto& at, label cell) {
-    const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell];
+    const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell], w = at(past());
     const scalar pressure =
-        ((1 + k) * at(flow.phi) - at(c.eps_f) * at(transported) - k * at(c.reference)) / e - at(c.push);
+        (w - at(c.eps_f) * at(transported) + at(c.share) * k * (w - at(c.reference))) / e - at(c.push);
     return at(c.push) + e * rAU[cell] / at(*system.response) * pressure;
   });
   const Foam::vectorField& reference = flow.source->reference.field();
@@ -106,6 +112,14 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
   }
 }
 
+/// After the last correction of a step. h: H/A as it was used.
+void note_open_momentum(Flow& flow, const volVectorField& h) {
+  const PressureSystem& system = flow.pressure_system;
+  open_momentum(flow) =
+      flow.time.deltaTValue() * (system.momentum->H()().primitiveField() -
+                                 h.primitiveField() / system.inverse_diagonal->primitiveField());
+}
+
 }  // namespace
 
 void correct_pressure(Flow& flow) {
@@ -116,6 +130,7 @@ void correct_pressure(Flow& flow) {
       Foam::constrainHbyA(*system.inverse_diagonal * system.momentum->H(), flow.U, flow.p_rgh));
   surfaceScalarField transported(fvc::flux(h) + *system.memory);
   extras(flow).rotating.makeRelative(transported);
+  if (flow.porosity) transported -= flow.porosity->along;
   surfaceScalarField phiHbyA(unforced_flux(flow, transported));
   if (flow.p_rgh.needReference()) balance_boundary(flow, phiHbyA);
   phiHbyA += mobility * flow.face_force();
@@ -125,7 +140,9 @@ void correct_pressure(Flow& flow) {
   else
     Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility, extras(flow).rotating);
 
+  bool last = false;
   while (flow.pimple.correctNonOrthogonal()) {
+    last = flow.pimple.finalInnerIter();
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, flow.p_rgh) == fvc::div(phiHbyA));
     if (flow.porosity) equation.source() += flow.mesh.V().field() * rate_to_serve(flow);
     equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
@@ -144,6 +161,7 @@ void correct_pressure(Flow& flow) {
   }
   update_face_velocity(flow);
   make_relative(flow);
+  if (flow.source && last) note_open_momentum(flow, h);
 }
 
 }  // namespace demvof

@@ -27,6 +27,7 @@ FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
                                    : surfaceScalarField::New("eps_f", flow.mesh,
                                                              dimensionedScalar("one", Foam::dimless, 1))),
       resistance("resistance", 0 * eps_f),
+      share("share", 1 * eps_f),
       reference("reference", 0 * flow.phi),
       push("push", 0 * flow.phi),
       stiffness(flow.source->coefficient.field() / A.primitiveField()) {
@@ -34,18 +35,26 @@ FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
   volScalarField drag(with_boundary(flow.source->coefficient));
   volVectorField force(with_boundary(flow.source->force));
   volVectorField towards(drag * with_boundary(flow.source->reference));  // C u_ref
+  volScalarField relative("stiffness", drag / A);                        // k
   if (flow.porosity) {
-    const volScalarField& eps = flow.porosity->eps;
+    // At the ends of the fluid the cell has the only side, whatever void fraction the patch gives the flux.
+    const volScalarField eps(with_boundary(flow.porosity->eps()));
     inertia /= eps;
     drag /= Foam::sqr(eps);
     force /= eps;
     towards /= eps;
+    relative /= eps;
   }
   const surfaceScalarField inertia_f(fvc::interpolate(inertia));
   const surfaceScalarField drag_f(fvc::interpolate(drag));
   const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
   resistance = drag_f / inertia_f;
+  share = resistance / (fvc::interpolate(relative) + dimensionedScalar("tiny", Foam::dimless, Foam::VSMALL));
   reference = fvc::dotInterpolate(flow.mesh.Sf(), towards) / (drag_f + tiny);
+  if (flow.porosity) {
+    const volScalarField eps_drag("drag", with_boundary(flow.porosity->eps()) * drag);  // C/eps
+    reference -= fvc::interpolate(eps_drag) / (drag_f + tiny) * flow.porosity->along;
+  }
   push = fvc::dotInterpolate(flow.mesh.Sf(), force) / inertia_f;
 }
 

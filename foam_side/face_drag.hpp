@@ -14,28 +14,36 @@ struct Flow;
 ///   (1 + k) u = h + k u_ref + F/A - a grad p
 ///
 /// Void fraction, drag and force may jump from one cell to the next, and the pressure then has a kink
-/// at the face between them. What does not jump is the flux phi = eps u.S. Each side of the face obeys
-/// its own balance with its own pressure gradient; the mean of both gradients is the one of the face:
+/// at the face between them. What does not jump is the flux past the particles, w = eps (u - v).S, v their
+/// velocity: each side of the face has u.S = v.S + w/eps. With J_v the flux of a fluid that goes with the
+/// particles (solid_motion.cpp; v.S less the solid's own flux),
 ///
-///   (1/e + kappa) phi = H_f/e + kappa R + B - a_f grad p.S
+///   phi = J_v + w,   u_f.S = v.S + w/e,   1/e = mean(1/eps)
 ///
-///   1/e   = mean(1/eps)                       H_f = e mean(h).S    transported flux
-///   kappa = mean(C/eps^2) / mean(A/eps)       R = mean(C u_ref/eps).S / mean(C/eps^2)
+/// so that a fluid that goes with its particles has u = v on both sides of any jump, wherever in the cell
+/// the edge of the bed is. Each side obeys its own balance with its own pressure gradient; the mean of both
+/// gradients is the one of the face:
+///
+///   (1/e + kappa) w = mean(h).S - v.S + kappa R + B - a_f grad p.S
+///
+///   kappa = mean(C/eps^2) / mean(A/eps)       R = mean(C (u_ref - v)/eps).S / mean(C/eps^2)
 ///   B     = mean(F/eps).S / mean(A/eps)
 ///
 /// and the push of the pressure on the cell as seen from its own side of the face is
 ///
-///   ((1 + k) phi - H_f - k R)/eps - B
+///   (w - e (mean(h) - v).S + s k (w - R))/eps - B,   s = kappa/mean(k/eps)
 ///
-/// In a uniform medium this is -a grad p.S. With one pressure gradient for both sides instead, the free
-/// fluid beside a bed is pushed by half the bed's pressure gradient (velocity errors of 125 % at
-/// k = 100; tests/verification/foam_flow/porous_plug.cpp).
+/// In a uniform medium this is -a grad p.S. The mean of both sides is the face's, or momentum would be lost
+/// there: hence s, which differs from 1 where A/eps jumps. With one pressure gradient for both sides instead,
+/// the free fluid beside a bed is pushed by half the bed's pressure gradient (velocity errors of 125 % at k =
+/// 100; tests/verification/foam_flow/porous_plug.cpp).
 struct FaceDrag {
   /// A: diagonal of the momentum matrix per volume, without drag, kg/(m3 s).
   FaceDrag(const Flow& flow, const volScalarField& A);
 
   surfaceScalarField eps_f;       // e, -
   surfaceScalarField resistance;  // kappa, -
+  surfaceScalarField share;       // s, -
   surfaceScalarField reference;   // R, m3/s
   surfaceScalarField push;        // B, m3/s
   scalarField stiffness;          // k, -

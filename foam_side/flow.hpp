@@ -36,6 +36,10 @@ struct Porosity {
   volScalarField eps;             // "voidFraction", -
   volScalarField::Internal goal;  // prescribed void fraction at the present time, -
   volScalarField::Internal rate;  // d(goal)/dt, constant in a window, 1/s
+  // How the particles move (solid_motion.cpp):
+  volVectorField::Internal solid_velocity;  // their mean v in a cell, m/s; 0 where there are none
+  surfaceScalarField along;                 // v.S, m3/s
+  surfaceScalarField carried;               // flux of a fluid that goes with them, m3/s
 };
 
 /// Force of the particles on the fluid, F = force + coefficient (reference - u), held over a window.
@@ -127,6 +131,10 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
 /// set again, with the pressure that balances them. Before the void fraction; part of open_flow.
 void refine_start(Flow& flow);
 
+/// Mean velocity of the particles in the window in which they displaced what comes next, one value per cell,
+/// m/s.
+void set_solid_velocity(Flow& flow, const Foam::vectorField& velocity);
+
 /// The void fraction at the start: a state, not a change. eps: one value per cell.
 void set_initial_porosity(Flow& flow, const scalarField& eps);
 
@@ -184,6 +192,16 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
 
 /// face_force of the present alpha and rho.
 void update_face_force(Flow& flow);
+
+/// along and carried of the void fraction from the particles' velocity and its present rate. at_start: there
+/// is no rate to know. False if no particle moves or has moved.
+bool follow_solid(Flow& flow, bool at_start = false);
+
+/// phi of a fluid that has the velocity u.S = velocity_flux (m3/s) at the faces.
+tmp<surfaceScalarField> flux_of(const Flow& flow, const surfaceScalarField& velocity_flux);
+
+/// And back: u.S at the faces.
+tmp<surfaceScalarField> velocity_flux_of(const Flow& flow, const surfaceScalarField& flux);
 
 /// Void fraction at faces that keeps a uniform flux uniform where eps jumps: 1/e = mean(1/eps).
 tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps);

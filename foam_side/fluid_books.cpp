@@ -4,11 +4,11 @@
 //   liquid in         -sum of dt phi_liquid                        over boundary faces
 //   weight             sum of dt eps rho V g                       over cells
 //   pressure          -sum of dt p S                               over boundary faces, p total
-//   shear              sum of dt eps mu_eff |S| d(u)/dn            over boundary faces
+//   shear              sum of dt eps mu_eff (|S| d(u)/dn + dev2(grad u^T).S)   over boundary faces; the
+//   second
+//                                                                  term of the velocity before
 //   carried in        -sum of dt rho_phi u                         over boundary faces
 //   surface tension    sum of dt eps V sigma kappa grad alpha      over cells
-//   left to particles -sum of dt (1 - eps) V grad p                over cells, grad p as particles are told
-//   it
 //
 // On meshes of equal hexahedra the cells' pressure gradients add up to the boundary's pressure exactly.
 
@@ -64,7 +64,7 @@ void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
     }
   }
   books.boundary_pressure += dt * to_vec3(pressure);
-  books.boundary_shear += dt * to_vec3(shear);
+  books.boundary_shear += dt * (to_vec3(shear) + books.explicit_stress);
   books.carried_in += dt * to_vec3(carried);
 }
 
@@ -75,17 +75,12 @@ void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
   forAll(volume, cell) mass += (eps ? (*eps)[cell] : 1.0) * flow.rho[cell] * volume[cell];
   books.weight += dt * mass * to_vec3(flow.g.value());
 
-  vector left = vector::zero, tension = vector::zero;
-  if (eps) {
-    const Foam::vectorField gradient = pressure_gradient(flow);
-    forAll(volume, cell) left -= (1 - (*eps)[cell]) * volume[cell] * gradient[cell];
-  }
+  vector tension = vector::zero;
   if (flow.scene.surface_tension) {
     const surfaceScalarField pull(flow.mixture.surfaceTensionForce() * flow.mesh.magSf());
     const Foam::vectorField force = (*flow.reconstruct)([&](const auto& at, label) { return at(pull); });
     forAll(volume, cell) tension += (eps ? (*eps)[cell] : 1.0) * volume[cell] * force[cell];
   }
-  books.left_to_particles += dt * to_vec3(left);
   books.surface_tension += dt * to_vec3(tension);
 }
 
@@ -96,6 +91,19 @@ void note_liquid_flux(Flow& flow, const surfaceScalarField& flux) {
   for_each_boundary_face(flow.mesh,
                          [&](label patch, label face) { inflow -= flux.boundaryField()[patch][face]; });
   books_of(flow).liquid_inflow = inflow;
+}
+
+void note_explicit_stress(Flow& flow, const volScalarField& density) {
+  const tmp<volScalarField> nu = flow.turbulence->nuEff();
+  const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
+  vector force = vector::zero;
+  forAll(flow.mesh.boundary(), patch) {
+    if (flow.mesh.boundary()[patch].coupled()) continue;
+    const Foam::tensorField stress(density.boundaryField()[patch] * nu().boundaryField()[patch] *
+                                   Foam::dev2(gradient().boundaryField()[patch].T()));
+    force += Foam::sum(flow.mesh.Sf().boundaryField()[patch] & stress);
+  }
+  books_of(flow).explicit_stress = to_vec3(force);
 }
 
 void keep_books(Flow& flow) {
@@ -111,7 +119,7 @@ FluidBooks take_books(Flow& flow) {
   FluidBooks taken = std::exchange(books_of(flow), FluidBooks{});
   Foam::reduce(taken.liquid_in, Foam::sumOp<double>());
   for (Vec3* part : {&taken.weight, &taken.boundary_pressure, &taken.boundary_shear, &taken.carried_in,
-                     &taken.surface_tension, &taken.left_to_particles})
+                     &taken.surface_tension})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   return taken;
 }

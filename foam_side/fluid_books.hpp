@@ -13,16 +13,19 @@ struct Flow;
 struct FluidBooks {
   double liquid_inflow = 0;  // through the boundary in the present step, m3/s
   double liquid_in = 0;      // m3
+  Vec3 explicit_stress;      // mu (grad u)^T at the boundary, as the present step's equation has it, N
   Vec3 weight;               // N s, as the rest
   Vec3 boundary_pressure;    // total pressure: on the fluid, and through it on the particles
   Vec3 boundary_shear;       // viscous
   Vec3 carried_in;           // momentum of what flows through the boundary
   Vec3 surface_tension;      // sum over the cells
-  Vec3 left_to_particles;  // what the pressure does to the particles' share of the cells, -(1 - eps) V grad p
 };
 
 /// Notes what of the liquid's flux in this step (m3/s) comes in through the boundary.
 void note_liquid_flux(Flow& flow, const surfaceScalarField& flux);
+
+/// Notes the part of the stress in the momentum equation of this step that does not wait for its velocity.
+void note_explicit_stress(Flow& flow, const volScalarField& density);
 
 /// Enters the step that has just been done.
 void keep_books(Flow& flow);

@@ -170,17 +170,26 @@ scalarField ParticlesToFine::solid_fraction_of(const Vec3& position, double volu
 Foam::vectorField ParticlesToFine::solid_flux_density() const {
   std::vector<Vec3> totals(cut_.cells().cells().size());
   for (const std::vector<BulkParticles>& touched : touched_)
-    for (std::size_t slot = 0; slot < totals.size(); ++slot) {
-      const BulkParticles& cell = touched[slot];
-      if (cell.drag_factor > 0)  // mean velocity of its particles, weighted with their drag factors
-        totals[slot] += cell.solid_volume / cell.drag_factor * cell.drag_weighted_velocity;
-    }
+    for (std::size_t slot = 0; slot < totals.size(); ++slot) totals[slot] += touched[slot].solid_flux;
   std::vector<double> rows(3 * totals.size());
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = totals[i / 3][static_cast<int>(i % 3)];
   const std::vector<double> density = cut_.remap().to_fine(rows, 3);
   Foam::vectorField result(flow_.mesh.nCells());
   forAll(result, cell) result[cell] = {density[3 * cell], density[3 * cell + 1], density[3 * cell + 2]};
   return result;
+}
+
+Foam::vectorField ParticlesToFine::solid_velocity() const {
+  Foam::vectorField flux(flow_.mesh.nCells(), Foam::Zero);
+  scalarField volume(flow_.mesh.nCells(), 0.0);
+  for (const std::vector<BulkParticles>& touched : touched_)
+    for (const Piece& piece : cut_.remap().pieces()) {
+      const double share = piece.volume / cut_.remap().bulk_volume()[piece.slot];
+      flux[piece.fine] += share * to_foam(touched[piece.slot].solid_flux);
+      volume[piece.fine] += share * touched[piece.slot].solid_volume;
+    }
+  forAll(flux, cell) if (volume[cell] > 0) flux[cell] /= volume[cell];
+  return flux;
 }
 
 void ParticlesToFine::spread_sources() {
@@ -251,6 +260,37 @@ std::vector<CellValues<Vec3>> ParticlesToFine::collect_impulse() {
 
 bool ParticlesToFine::hands_back() const {
   return hands_back_left_over(coupling_.exchange);
+}
+
+// -(1 - eps) V grad p dt of a fine cell goes to its pieces as their bulk cells have solid of each fluid.
+std::vector<CellValues<Vec3>> ParticlesToFine::left_to_particles(const Foam::vectorField& gradient) const {
+  const std::vector<Piece>& pieces = cut_.remap().pieces();
+  const int fluids = static_cast<int>(state_.size());
+  std::vector<std::vector<double>> part(state_.size());  // of each piece
+  std::vector<double> sum(static_cast<std::size_t>(flow_.mesh.nCells()), 0.0);
+  for (int k = 0; k < fluids; ++k) {
+    const std::vector<double> before = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
+    const std::vector<double> volume = fluids > 1 ? surface_.volumes(k) : cut_.remap().bulk_volume();
+    for (const Piece& piece : pieces) {
+      const double solid = before[piece.slot] + touched_[k][piece.slot].solid_volume;
+      const double own = surface_.share(k, piece) * piece.volume;
+      part[k].push_back(own > 0 ? own / volume[piece.slot] * solid : 0);
+      sum[piece.fine] += part[k].back();
+    }
+  }
+  const double dt = flow_.time.deltaTValue();
+  std::vector<CellValues<Vec3>> left;
+  for (int k = 0; k < fluids; ++k) {
+    std::vector<Vec3> impulse(cut_.cells().cells().size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const label cell = pieces[i].fine;
+      if (sum[cell] > 0)
+        impulse[pieces[i].slot] -= part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) *
+                                   flow_.mesh.V()[cell] * to_vec3(gradient[cell]);
+    }
+    left.push_back(cut_.cells().sum_to_owners(impulse));
+  }
+  return left;
 }
 
 void ParticlesToFine::end_window() {

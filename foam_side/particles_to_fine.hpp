@@ -53,6 +53,9 @@ class ParticlesToFine {
   /// `volume_adding`).
   Foam::vectorField solid_flux_density() const;
 
+  /// Mean velocity of the particles in each fine cell, m/s; 0 where there are none.
+  Foam::vectorField solid_velocity() const;
+
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk cell with
   /// the weights of sharing_weights.hpp, as they are now. In every fluid step.
   void spread_sources();
@@ -66,6 +69,9 @@ class ParticlesToFine {
   bool hands_back() const;
   /// The fluid got an impulse (N s) from the particles in another way, which they are owed like the rest.
   void count_given(const Vec3& impulse) { collected_sum_ += impulse; }
+  /// What the pressure of the step just done left to the particles of each bulk cell, N s, by fluid: cells
+  /// owned by this rank. gradient: grad p, per fine cell.
+  std::vector<CellValues<Vec3>> left_to_particles(const Foam::vectorField& gradient) const;
 
   /// The window's impulses are complete.
   void end_window();

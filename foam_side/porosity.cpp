@@ -67,7 +67,15 @@ Porosity::Porosity(const Foam::fvMesh& mesh)
           mesh, dimensionedScalar("one", Foam::dimless, 1), boundary_types(mesh)),
       goal("voidFractionGoal", eps()),
       rate(Foam::IOobject("voidFractionRate", mesh.time().timeName(), mesh), mesh,
-           dimensionedScalar(Foam::dimless / Foam::dimTime, Foam::Zero)) {}
+           dimensionedScalar(Foam::dimless / Foam::dimTime, Foam::Zero)),
+      solid_velocity(Foam::IOobject("solidVelocity", mesh.time().timeName(), mesh), mesh,
+                     Foam::dimensionedVector(Foam::dimVelocity, Foam::Zero)),
+      along(Foam::IOobject("alongSolid", mesh.time().timeName(), mesh), mesh,
+            dimensionedScalar(Foam::dimVolume / Foam::dimTime, Foam::Zero)),
+      carried("carriedBySolid", along) {
+  along.setOriented();
+  carried.setOriented();
+}
 
 void set_initial_porosity(Flow& flow, const scalarField& eps) {
   Porosity& porosity = *flow.porosity;
@@ -75,14 +83,19 @@ void set_initial_porosity(Flow& flow, const scalarField& eps) {
   porosity.rate.field() = 0;
   porosity.eps.primitiveFieldRef() = eps;
   porosity.eps.correctBoundaryConditions();
-  flow.phi = face_void_fraction(porosity.eps) * fvc::flux(flow.U);
-  fit_flux(flow, projection_mobility(flow), nullptr);
+  const bool moving = follow_solid(flow, true);
+  flow.phi = flux_of(flow, fvc::flux(flow.U));
+  const tmp<volScalarField> making_way = fvc::div(porosity.along - porosity.carried);
+  fit_flux(flow, projection_mobility(flow), moving ? &making_way().primitiveField() : nullptr);
 }
 
 void set_porosity_target(Flow& flow, const scalarField& eps) {
   Porosity& porosity = *flow.porosity;
   porosity.rate.field() = (eps - porosity.goal.field()) / (flow.clock.window_end - flow.time.value());
   refuse_change_of_closed_volume(flow);
+  if (follow_solid(flow))
+    flow.phi = flow.velocity_flux ? flux_of(flow, *flow.velocity_flux)
+                                  : flux_of(flow, flow.mesh.Sf() & *flow.face_velocity);
   const tmp<scalarField> wanted = wanted_porosity_rate(flow);
   const tmp<volScalarField> divergence = fvc::div(flow.phi);
   const double worst = Foam::gMax(Foam::mag(divergence().primitiveField() + wanted())());

@@ -14,8 +14,11 @@
 // says. eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
 
 #include "coupler/closures/suspension_viscosity.hpp"
+#include "foam_side/cell_field.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/fluid_books.hpp"
+#include "foam_side/open_momentum.hpp"
 
 namespace demvof {
 namespace {
@@ -41,12 +44,14 @@ tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
       Foam::IOobject("rho", flow.time.timeName(), flow.mesh, Foam::IOobject::NO_READ,
                      Foam::IOobject::NO_WRITE, false),
       stress_share(flow) * flow.rho);
+  if (flow.pimple.finalIter()) note_explicit_stress(flow, stress_density);
   return Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
          fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(stress_density, flow.U);
 }
 
 tmp<Foam::fvVectorMatrix> inertia_and_stress(Flow& flow) {
   if (flow.porosity) return porous_inertia_and_stress(flow);
+  if (flow.source && flow.pimple.finalIter()) note_explicit_stress(flow, flow.rho);
   tmp<Foam::fvVectorMatrix> momentum = fvm::ddt(flow.rho, flow.U) + fvm::div(flow.rho_phi, flow.U) +
                                        flow.turbulence->divDevRhoReff(flow.rho, flow.U);
   if (extras(flow).rotating.active()) momentum.ref() += extras(flow).rotating.DDt(flow.rho, flow.U);
@@ -115,8 +120,7 @@ tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& resp
 /// outer correctors would depend on the relaxation factor (Majumdar, Numer. Heat Transfer 13 (1988) 125).
 tmp<surfaceScalarField> relaxation_memory(const Flow& flow, const volScalarField& unrelaxed,
                                           const volScalarField& A) {
-  tmp<surfaceScalarField> flux =
-      flow.porosity ? flow.phi / face_void_fraction(flow.porosity->eps) : 1.0 * flow.phi;
+  tmp<surfaceScalarField> flux = flow.porosity ? velocity_flux_of(flow, flow.phi) : 1.0 * flow.phi;
   if (flow.mesh.moving()) flux.ref() += flow.mesh.phi();
   return fvc::interpolate(1.0 - unrelaxed / A) * (flux - fvc::flux(flow.U));
 }
@@ -160,6 +164,8 @@ void predict_momentum(Flow& flow) {
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
+  if (flow.source)
+    system.momentum->source() += flow.mesh.V().field() * open_momentum(flow) / flow.time.deltaTValue();
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   constrain(flow, *system.momentum);
   if (predicts(flow)) solve_momentum(flow, *system.momentum);
@@ -168,7 +174,9 @@ void predict_momentum(Flow& flow) {
   system.inverse_diagonal.reset();  // first: OpenFOAM maps the field that has the name
   system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / A);
   tmp<volScalarField> response(*system.inverse_diagonal);
-  if (flow.porosity) response = flow.porosity->eps * *system.inverse_diagonal;
+  if (flow.porosity)
+    response = with_boundary("eps", flow.mesh, Foam::dimless, flow.porosity->eps.primitiveField()) *
+               *system.inverse_diagonal;  // at its ends, too, that of the cell
   system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
   system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));
   if (lag.valid()) *system.memory += lag;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "foam_side/fine_mesh.hpp"
+#include "foam_side/open_momentum.hpp"
 
 namespace demvof {
 
@@ -137,6 +138,8 @@ Vec3 fluid_momentum(const Flow& flow) {
   vector momentum = vector::zero;
   for (label cell = 0; cell < flow.mesh.nCells(); ++cell)
     momentum += void_fraction(flow, cell) * flow.rho[cell] * flow.mesh.V()[cell] * flow.U[cell];
+  if (const Foam::vectorField* open = find_open_momentum(flow))
+    for (label cell = 0; cell < flow.mesh.nCells(); ++cell) momentum += flow.mesh.V()[cell] * (*open)[cell];
   return to_vec3(Foam::returnReduce(momentum, Foam::sumOp<vector>()));
 }
 

@@ -142,7 +142,10 @@ void settle_flux(Flow& flow) {
     if (wall_velocity.fixesValue())
       at_boundary[patch] = wall_velocity & flow.mesh.Sf().boundaryField()[patch];
   }
-  if (flow.porosity) flow.phi *= face_void_fraction(flow.porosity->eps);
+  if (flow.porosity) {
+    follow_solid(flow);
+    flow.phi = flux_of(flow, flow.phi);
+  }
   const tmp<scalarField> wanted = flow.porosity ? wanted_porosity_rate(flow) : tmp<scalarField>();
   fit_flux(flow, projection_mobility(flow), flow.porosity ? &wanted() : nullptr);
   flow.mixture.correct();

@@ -15,6 +15,7 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
+#include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
 
 namespace demvof {
@@ -48,6 +49,22 @@ CellValues<T> cell_values(const json& saved) {
   return read;
 }
 
+std::vector<double> components(const Foam::vectorField& values) {
+  std::vector<double> row;
+  for (const vector& v : values) row.insert(row.end(), {v.x(), v.y(), v.z()});
+  return row;
+}
+
+void read_components(const json& state, const char* name, Foam::vectorField& values) {
+  const auto row = state.at(name).get<std::vector<double>>();
+  forAll(values, cell) for (int axis = 0; axis < 3; ++axis) values[cell][axis] =
+      row.at(static_cast<std::size_t>(3 * cell + axis));
+}
+
+Vec3 vec3(const json& row) {
+  return {row.at(0), row.at(1), row.at(2)};
+}
+
 json flow_state(const Flow& flow, const ForceParameters& forces) {
   json state = {{"time_step", flow.time.deltaTValue()},
                 {"longest_step", flow.clock.limit},
@@ -59,16 +76,10 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
     state["void_fraction_goal"] = std::vector<double>(goal.begin(), goal.end());
   }
   if (need_acceleration(forces)) {  // Du/Dt looks back by a step
-    std::vector<double> components;
-    for (const vector& u : flow.U.oldTime().primitiveField())
-      components.insert(components.end(), {u.x(), u.y(), u.z()});
-    state["velocity_before"] = components;
+    state["velocity_before"] = components(flow.U.oldTime().primitiveField());
   }
-  if (const Foam::vectorField* own = find_own_gradient(flow)) {
-    std::vector<double> components;
-    for (const vector& g : *own) components.insert(components.end(), {g.x(), g.y(), g.z()});
-    state["own_gradient"] = components;
-  }
+  if (const Foam::vectorField* own = find_own_gradient(flow)) state["own_gradient"] = components(*own);
+  if (const Foam::vectorField* open = find_open_momentum(flow)) state["open_momentum"] = components(*open);
   return state;
 }
 
@@ -86,17 +97,10 @@ void go_on(Flow& flow, const json& state) {
     forAll(flow.porosity->goal, cell) flow.porosity->goal[cell] = goal.at(static_cast<std::size_t>(cell));
   }
   if (flow.ghost) add_ghost_density(flow);
-  if (state.contains("own_gradient")) {
-    const auto saved = state.at("own_gradient").get<std::vector<double>>();
-    Foam::vectorField& own = own_gradient(flow);
-    forAll(own, cell) for (int axis = 0; axis < 3; ++axis) own[cell][axis] =
-        saved.at(static_cast<std::size_t>(3 * cell + axis));
-  }
-  if (!state.contains("velocity_before")) return;
-  const auto before = state.at("velocity_before").get<std::vector<double>>();
-  Foam::vectorField& velocity = flow.U.oldTime().primitiveFieldRef();
-  forAll(velocity, cell) for (int axis = 0; axis < 3; ++axis) velocity[cell][axis] =
-      before.at(static_cast<std::size_t>(3 * cell + axis));
+  if (state.contains("own_gradient")) read_components(state, "own_gradient", own_gradient(flow));
+  if (state.contains("open_momentum")) read_components(state, "open_momentum", open_momentum(flow));
+  if (state.contains("velocity_before"))
+    read_components(state, "velocity_before", flow.U.oldTime().primitiveFieldRef());
 }
 
 /// The last bytes of a file of OpenFOAM, compressed or not.
@@ -194,7 +198,10 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"left_over", as_json(fluid.left_over)},
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
-                        {"told", as_json(fluid.told)}});
+                        {"told", as_json(fluid.told)},
+                        {"owed_pressure", as_json(fluid.owed_pressure)},
+                        {"returned_pressure",
+                         {fluid.returned_pressure.x, fluid.returned_pressure.y, fluid.returned_pressure.z}}});
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().told())},
@@ -267,11 +274,12 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
     const json state = json::from_cbor(stream);
     std::vector<Bridge::State> exchange;
     for (const json& fluid : state.at("exchange"))
-      exchange.push_back({cell_values<BulkParticles>(fluid.at("particles")),
-                          cell_values<LeftOver::Owed>(fluid.at("left_over")),
-                          cell_values<Vec3>(fluid.at("felt_shift")),
-                          cell_values<double>(fluid.at("solid_volume_before")),
-                          cell_values<ToldFluid::Cell>(fluid.at("told"))});
+      exchange.push_back(
+          {cell_values<BulkParticles>(fluid.at("particles")),
+           cell_values<LeftOver::Owed>(fluid.at("left_over")), cell_values<Vec3>(fluid.at("felt_shift")),
+           cell_values<double>(fluid.at("solid_volume_before")),
+           cell_values<ToldFluid::Cell>(fluid.at("told")),
+           cell_values<LeftOver::Owed>(fluid.at("owed_pressure")), vec3(fluid.at("returned_pressure"))});
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));

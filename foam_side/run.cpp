@@ -73,9 +73,11 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   const bool moves = extras(flow).motion != MeshMotion::never;
   if (!moves && refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
-    if (flow.porosity)
+    if (flow.porosity) {
+      set_solid_velocity(flow, bridge->particles_to_fine().solid_velocity());
       renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
                      bridge->particles_to_fine().void_fraction(1));
+    }
     settle_flux(flow);
   }
   update_porosity(flow);
@@ -90,6 +92,7 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
   end_step(flow);
+  if (bridge) bridge->collect_pressure();
   if (bridge && flow.scene.two_fluids)
     bridge->collect_impulse();  // before the surface moves on to other fine cells
   return true;
@@ -107,7 +110,6 @@ void enter_books(Flow& flow, FluidReport& report) {
   report.outside.boundary_shear = books.boundary_shear;
   report.outside.carried_in = books.carried_in;
   report.outside.surface_tension = books.surface_tension;
-  report.left_to_particles = books.left_to_particles;
 }
 
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,
@@ -131,7 +133,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
     if (world.rank() == 0) go_back_to(options.out, *start);
   } else {
-    if (flow.porosity) set_initial_porosity(flow, to_fine.void_fraction());
+    if (flow.porosity) {
+      set_solid_velocity(flow, to_fine.solid_velocity());
+      set_initial_porosity(flow, to_fine.void_fraction());
+    }
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
     if (pressure_says_nothing(flow)) balance_pressure(flow);
     record.start(flow, &first.report);
@@ -170,7 +175,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
           replacement);
       to_fine.note(droplets);
       to_fine.spread_sources();  // the flux is fitted to the new window with its drag
-      if (flow.porosity) set_porosity_target(flow, to_fine.void_fraction());
+      if (flow.porosity) {
+        set_solid_velocity(flow, to_fine.solid_velocity());
+        set_porosity_target(flow, to_fine.void_fraction());
+      }
       if (flow.ghost) set_ghost_target(flow, to_fine.void_fraction(), to_fine.solid_flux_density());
       while (step_fluid(flow, &bridge)) {
       }
@@ -191,6 +199,11 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
     done.negative_cells = to_fine.spread().negative_cells;
     enter_books(flow, done.fluid);
+    const Bridge::PressureImpulses pressure = bridge.pressure_impulses();
+    done.fluid.told_pressure = pressure.told;
+    done.fluid.owed_pressure = pressure.owed;
+    done.fluid.returned_pressure = pressure.returned;
+    done.fluid.outside.surface_tension += pressure.tension;
     if (replaces) {
       done.replacement = replacement;
       done.fluid.replaced_liquid = replacement.liquid();

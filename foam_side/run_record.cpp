@@ -104,7 +104,7 @@ void RunRecord::start(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = fluid_quantities(flow);
   books_.emplace(parameters_.coupling.exchange, parameters_.coupling.schedule,
                  particles ? particles->momentum : Vec3{}, fluid_momentum(flow),
-                 Books::State{{}, {}, quantities.at("liquid_volume")});
+                 Books::State{{}, {}, quantities.at("liquid_volume"), {}});
   initial_potential_ = quantities.at("potential_energy");
   open_history(flow, {});
   write_row(flow, particles);
@@ -120,9 +120,10 @@ void RunRecord::open_history(const Flow& flow, std::optional<double> continued_f
 }
 
 void RunRecord::go_on(const Flow& flow, const ParticleReport& particles, long windows, const json& books) {
-  books_.emplace(
-      parameters_.coupling.exchange, parameters_.coupling.schedule, particles.momentum, fluid_momentum(flow),
-      Books::State{vec3(books.at("pending")), vec3(books.at("unplaced")), books.at("liquid_volume")});
+  books_.emplace(parameters_.coupling.exchange, parameters_.coupling.schedule, particles.momentum,
+                 fluid_momentum(flow),
+                 Books::State{vec3(books.at("pending")), vec3(books.at("unplaced")),
+                              books.at("liquid_volume"), vec3(books.at("owed_pressure"))});
   initial_potential_ = books.at("initial_potential");
   next_row_ = books.at("next_row");
   last_row_ = flow.time.value();
@@ -139,6 +140,7 @@ json RunRecord::books() const {
   const Books::State state = books_->state();
   return {{"pending", array(state.pending)},
           {"unplaced", array(state.unplaced)},
+          {"owed_pressure", array(state.owed_pressure)},
           {"liquid_volume", state.liquid_volume},
           {"initial_potential", initial_potential_},
           {"next_row", next_row_}};

@@ -24,7 +24,9 @@ struct FluidReport {
   Vec3 replacement_impulse;                 // that came with it since then, N s
   Vec3 momentum;                            // at the end of the window, kg m/s
   OutsideImpulses outside;                  // those that the fluid side sees
-  Vec3 left_to_particles;                   // what the fluid's pressure does to their share, N s
+  Vec3 told_pressure;      // what the particles were given with the pressure gradient they were told, N s
+  Vec3 owed_pressure;      // what its pressure left to them and they have not been given, at the window's end
+  Vec3 returned_pressure;  // of that, what went back to the fluid with the explicit impulse
 };
 
 class Books {
@@ -34,6 +36,7 @@ class Books {
     Vec3 pending;              // received by one side, not yet by the other, N s
     Vec3 unplaced;             // of this, what found no particle at all
     double liquid_volume = 0;  // what there should be, m3
+    Vec3 owed_pressure;        // FluidReport's
   };
   Books(ExchangeScheme scheme, Schedule schedule, const Vec3& particle_momentum, const Vec3& fluid_momentum,
         const State& state)
@@ -41,9 +44,10 @@ class Books {
         schedule_(schedule),
         pending_(state.pending),
         unplaced_(state.unplaced),
+        owed_pressure_(state.owed_pressure),
         ledger_(particle_momentum, {}, state.liquid_volume, state.pending),
-        momentum_(particle_momentum + fluid_momentum + state.pending) {}
-  State state() const { return {pending_, unplaced_, ledger_.liquid_volume()}; }
+        momentum_(particle_momentum + fluid_momentum + state.pending + state.owed_pressure) {}
+  State state() const { return {pending_, unplaced_, ledger_.liquid_volume(), owed_pressure_}; }
 
   /// Enters a window of a run without particles.
   void window(const FluidReport& fluid) { enter(fluid, {}); }
@@ -58,7 +62,7 @@ class Books {
     gone_ = particles.left + particles.lost;
     balance.drag_to_particles = some_went ? particles.drag_impulse_bulk : particles.drag_impulse;
     balance.left_over_to_particles = particles.left_over_given;
-    balance.explicit_to_fluid = fluid.explicit_impulse;
+    balance.explicit_to_fluid = fluid.explicit_impulse - fluid.returned_pressure;
     balance.implicit_to_fluid = fluid.implicit_impulse;
     unplaced_ += particles.left_over_unplaced;
     if (hands_back_left_over(scheme_))
@@ -94,7 +98,7 @@ class Books {
   const ConservationErrors& worst() const { return ledger_.worst(); }
   /// Of everything, since the start.
   const MomentumBooks& momentum() const { return momentum_; }
-  const Vec3& pending() const { return pending_; }
+  Vec3 pending() const { return pending_ + owed_pressure_; }
   /// Impulse that went with particles in the windows in which they left, N s.
   double gone_impulse() const { return gone_impulse_; }
 
@@ -108,8 +112,9 @@ class Books {
     outside.held = -particles.held_impulse;
     outside.stress = particles.stress_impulse;
     outside.constant = particles.constant_impulse;
-    outside.pressure_lag = particles.pressure_impulse - fluid.left_to_particles;
-    momentum_.close(fluid.momentum + particles.momentum + pending_, outside, changed);
+    outside.pressure_lag = particles.pressure_impulse - fluid.told_pressure;
+    owed_pressure_ = fluid.owed_pressure;
+    momentum_.close(fluid.momentum + particles.momentum + pending_ + owed_pressure_, outside, changed);
   }
   void enter(const FluidReport& fluid, WindowBalance balance) {
     balance.liquid_volume = fluid.liquid_volume;
@@ -120,7 +125,7 @@ class Books {
 
   ExchangeScheme scheme_;
   Schedule schedule_;
-  Vec3 pending_, unplaced_;
+  Vec3 pending_, unplaced_, owed_pressure_;
   double came_ = 0, gone_ = 0;  // particles inserted; left and lost; up to the last window
   double replaced_liquid_ = 0;  // m3
   Vec3 replacement_impulse_;

@@ -31,8 +31,7 @@ struct OutsideImpulses {
   Vec3 held;               // what the fluid gave to particles that no force moves went to what holds them
   Vec3 stress;             // viscous stress and capillary force on particles
   Vec3 constant;           // the case file's force on particles
-  Vec3 pressure_lag;       // pressure on the particles, told at a window's begin (and relaxed), less what the
-                           // fluid's equation left to them in the window
+  Vec3 pressure_lag;  // pressure on the particles less what the fluid gave them with the gradient it told
 
   OutsideImpulses& operator+=(const OutsideImpulses& other) {
     for (const auto& [name, part] : parts) this->*part += other.*part;

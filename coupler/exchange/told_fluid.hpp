@@ -29,6 +29,9 @@ class ToldFluid {
   /// The acceleration, after that, with the factors of the same cells.
   void relax(CellValues<BulkFluidGradients>& gradients);
 
+  /// omega of the cells that were told last.
+  const std::vector<double>& factors() const { return factor_; }
+
   /// What the last telling came to.
   struct Relaxed {
     double smallest = 1;  // relaxation factor, -

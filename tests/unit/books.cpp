@@ -35,7 +35,7 @@ Reports reports(const Vec3& drag, const Vec3& left_over, const Vec3& implicit, c
 }
 
 Books staggered() {
-  return {ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {}, {{}, {}, liquid}};
+  return {ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {}, {{}, {}, liquid, {}}};
 }
 
 TEST(Books, TwoWindowsThatClose) {
@@ -76,7 +76,7 @@ TEST(Books, EachImpulseCounts) {
 }
 
 TEST(Books, ConcurrentDragIsPendingForAWindow) {
-  Books books(ExchangeScheme::conservative_implicit, Schedule::concurrent, {}, {}, {{}, {}, liquid});
+  Books books(ExchangeScheme::conservative_implicit, Schedule::concurrent, {}, {}, {{}, {}, liquid, {}});
   Reports first = reports({1, 2, 3}, {}, {}, {});
   first.fluid.explicit_impulse = {};
   books.window(first.fluid, first.particles);
@@ -124,9 +124,11 @@ TEST(Books, ReplacedParticlesAreLiquid) {
   EXPECT_LT(books.worst().liquid_volume, 1e-15);
 }
 
-/// Fluid and particles together: what the fluid's pressure leaves to the particles is what they get.
+/// Fluid and particles together: of what the fluid's pressure leaves to the particles they get a part now and
+/// are owed the rest.
 TEST(Books, MomentumOfEverything) {
-  Books books(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid});
+  Books books(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0},
+              {{}, {}, liquid, {}});
   Reports r = reports({1, 2, 3}, {}, {0.25, 0, -1}, {});
   OutsideImpulses& outside = r.fluid.outside;
   outside.fluid_weight = {0, 0, -16};
@@ -134,17 +136,23 @@ TEST(Books, MomentumOfEverything) {
   outside.boundary_shear = {-0.5, 0, 0};
   outside.carried_in = {0, 0, 0.5};
   outside.surface_tension = {0, 0.25, 0};
-  r.fluid.left_to_particles = r.particles.pressure_impulse + Vec3{0, 0, 0.5};  // the particles got too little
+  const Vec3 left = r.particles.pressure_impulse + Vec3{0, 0, 0.75};
+  r.fluid.told_pressure =
+      r.particles.pressure_impulse + Vec3{0, 0, 0.5};  // the particles got too little of it
+  r.fluid.owed_pressure = left - r.fluid.told_pressure;
   r.fluid.momentum = Vec3{1, 0, 0} + r.fluid.explicit_impulse + r.fluid.implicit_impulse +
-                     outside.fluid_weight + outside.boundary_pressure - r.fluid.left_to_particles +
-                     outside.boundary_shear + outside.carried_in + outside.surface_tension;
+                     outside.fluid_weight + outside.boundary_pressure - left + outside.boundary_shear +
+                     outside.carried_in + outside.surface_tension;
   books.window(r.fluid, r.particles);
   EXPECT_LT(norm(books.momentum().worst()), 1e-15);
   EXPECT_EQ(books.momentum().impulses().pressure_lag.z, -0.5);
   EXPECT_EQ(books.momentum().judged(), 1);
 
+  EXPECT_EQ(books.pending().z, books.state().pending.z + 0.25);
+
   r.fluid.momentum += {0, 2, 0};  // from nowhere
-  Books faulty(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0}, {{}, {}, liquid});
+  Books faulty(ExchangeScheme::conservative_implicit, Schedule::staggered, {}, {1, 0, 0},
+               {{}, {}, liquid, {}});
   faulty.window(r.fluid, r.particles);
   EXPECT_NEAR(faulty.momentum().worst().y, 2 / norm(outside.boundary_pressure), 1e-15);
   EXPECT_LT(faulty.momentum().worst().z, 1e-15);

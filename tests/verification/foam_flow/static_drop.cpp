@@ -23,14 +23,15 @@ double viscosity() {  // of the drop, Pa s
   return std::sqrt(sigma * rho * diameter / laplace);
 }
 
-double drop(const vector& x) {
+/// centre: of the drop, m from that of the box, along x and z.
+double drop(const vector& x, double centre) {
   constexpr int samples = 20;
   const double h = box / cells;
   int inside = 0;
   for (int i = 0; i < samples; ++i)
     for (int j = 0; j < samples; ++j) {
-      const double dx = x.x() + h * ((i + 0.5) / samples - 0.5) - 0.5 * box;
-      const double dz = x.z() + h * ((j + 0.5) / samples - 0.5) - 0.5 * box;
+      const double dx = x.x() + h * ((i + 0.5) / samples - 0.5) - 0.5 * box - centre;
+      const double dz = x.z() + h * ((j + 0.5) / samples - 0.5) - 0.5 * box - 0.6 * centre;
       inside += dx * dx + dz * dz < 0.25 * diameter * diameter;
     }
   return double(inside) / (samples * samples);
@@ -41,6 +42,7 @@ struct Variant {
   Settings settings;
   double (*eps)(const vector&);  // nullptr: no particles
   double drag;                   // C where eps < 1, kg/(m3 s)
+  double centre = 0;             // of the drop, m from that of the box
 };
 
 double core(const vector& x) {
@@ -50,6 +52,10 @@ double core(const vector& x) {
 
 double half(const vector& x) {
   return x.x() > 0.55 * box ? 0.6 : 1;
+}
+
+double everywhere(const vector&) {
+  return 0.6;
 }
 
 double smooth_half(const vector& x) {
@@ -90,7 +96,7 @@ History ours(const Variant& variant, double end_time) {
   const bool beads = variant.eps != nullptr;
   const auto flow =
       FoamCase("static_drop", drop_case(variant.settings, 2 * end_time)).open(scene(beads, beads, true));
-  set_alpha(*flow, drop);
+  set_alpha(*flow, [&](const vector& x) { return drop(x, variant.centre); });
   scalarField eps;
   if (beads) {
     eps = cell_values(*flow, variant.eps);
@@ -116,7 +122,7 @@ History theirs(const std::string& program, double end_time) {
   const FoamCase folder("static_drop_" + program, drop_case({}, end_time));
   {
     const auto flow = folder.open(scene(false, false, true));
-    set_alpha(*flow, drop);
+    set_alpha(*flow, [&](const vector& x) { return drop(x, 0); });
     flow->alpha.write();
   }
   folder.run(program);
@@ -160,10 +166,15 @@ void static_drop(double end_time, const std::string& command) {
     for (const Variant& variant :
          {Variant{"no beads", scheme, nullptr, 0}, Variant{"beads inside", scheme, core, 1e5},
           Variant{"beads across", scheme, half, 1e5}, Variant{"eps across, no drag", scheme, half, 0},
-          Variant{"smooth eps across, no drag", scheme, smooth_half, 0}}) {
+          Variant{"smooth eps across, no drag", scheme, smooth_half, 0},
+          Variant{"no beads, off centre", scheme, nullptr, 0, 0.0023 * box},
+          Variant{"eps 0.6 everywhere, no drag", scheme, everywhere, 0},
+          Variant{"eps 0.6 everywhere, no drag, off centre", scheme, everywhere, 0, 0.0023 * box}}) {
       const std::string name = scheme.at("alpha_scheme") + ", " + variant.name;
       const History history = ours(variant, end_time);
-      const bool driven_off = variant.eps && variant.drag == 0 && end_time > short_time;
+      const bool control = variant.centre != 0 || variant.eps == everywhere;
+      if (control && end_time <= short_time) continue;
+      const bool driven_off = control || (variant.eps && variant.drag == 0 && end_time > short_time);
       const auto bounded = [&](const std::string& what, double value, double bound) {
         driven_off ? record.note(what, value) : record.at_most(what, value, bound);
       };

@@ -14,7 +14,7 @@ import pathlib
 import random
 import sys
 
-from box_case import BoxCase, Cyclic, Open, Particle, Wall, command_line, scratch
+from box_case import BoxCase, Cyclic, Open, Particle, Wall, command_line, momentum_of_everything, scratch
 from record import Record
 
 DIAMETER, DENSITY, LIQUID, VISCOSITY = 1e-3, 2500, 1000, 0.2
@@ -144,6 +144,7 @@ def main():
         judge_sediment(record, speed, times, frames)
     record.curve("batch settling", "t, s", "height, m", "interface, eps^4.65 v_St", [0, 5], [HEIGHT, HEIGHT - 5 * WEN_YU],
                  style="k-")
+    momentum_of_everything(record)
     sys.exit(record.write())
 
 

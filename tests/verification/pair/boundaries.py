@@ -6,7 +6,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, particle_states, scratch
+from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, momentum_of_everything, particle_states, scratch
 from box_fields import output_times, vector_field
 from record import Record
 
@@ -55,10 +55,11 @@ def periodic():
         RECORD.at_most(f"periodic, {name}: particles lost", run.results["particles"]["lost"], 0)
         RECORD.at_most(f"periodic, {name}: exchange error", run.number("conservation.exchange"), 5e-14)
         RECORD.at_most(f"periodic, {name}: solid volume error", run.number("conservation.solid_volume"), 6e-14)
+    # The flux of the solid through the faces is found by iteration, to 1e-10.
     RECORD.at_most("periodic: position, across against inside, over the box",
-                   numpy.abs(states[0][0] - states[1][0]).max() / length, 1.4e-14)
+                   numpy.abs(states[0][0] - states[1][0]).max() / length, 4e-11)
     RECORD.at_most("periodic: velocity, across against inside",
-                   numpy.abs(states[0][1] - states[1][1]).max(), 8e-15, "m/s")
+                   numpy.abs(states[0][1] - states[1][1]).max(), 6e-11, "m/s")
     fallen = 0.03 - states[0][0][:, 2].max()
     RECORD.at_least("periodic: the beads fall by", fallen, 0.01, "m")
 
@@ -94,7 +95,7 @@ def slanted_floor():
     """Beads fall on a floor that rises along x: blockMesh's slanted block, and an STL plane in LIGGGHTS."""
     length, width, rise, diameter = 0.06, 0.036, 0.012, 5e-3
     case = BoxCase(scratch("boundaries/slanted_floor"), upper=(length, width, 0.06), fine=(10, 6, 10),
-                   bulk=(5, 3, 5), end_time=0.4, window=1e-3, dem_step=2e-5, floor_rise=rise, margin=0.01,
+                   bulk=(5, 3, 5), end_time=0.3, window=1e-3, dem_step=2e-5, floor_rise=rise, margin=0.01, momentum_judged=False,
                    contacts=True, stiffness=500, pimple="nNonOrthogonalCorrectors 2;")
     case.sides["z+"] = Open(alpha=1)
     slope = rise / length
@@ -131,7 +132,8 @@ def slanted_floor():
 def two_sizes():
     """A bed of two types of beads in a closed box, put in layers that touch the floor and settle."""
     case = BoxCase(scratch("boundaries/two_sizes"), upper=(0.048, 0.048, 0.06), fine=(8, 8, 10), bulk=(4, 4, 5),
-                   end_time=0.4, window=1e-3, dem_step=2e-5, contacts=True, stiffness=500, margin=0.002)
+                   end_time=0.25, window=1e-3, dem_step=2e-5, contacts=True, stiffness=500, margin=0.002)
+    # No longer: the small beads stand on the large ones, and fall over some time.
     kinds = {1: (6e-3, 2500), 2: (4e-3, 1800)}
     for layer, kind in enumerate((1, 2)):
         diameter, density = kinds[kind]
@@ -207,7 +209,7 @@ def bed_on_the_inlet():
     edge, speed = 0.012, 0.02  # superficial velocity, m/s
     for name, inlet in (("velocity", (0, 0, speed)),
                         ("flow rate", f"flowRateInletVelocity; volumetricFlowRate {speed * edge**2:.17g}; "
-                                      "value uniform (0 0 0)")):
+                                      f"value uniform (0 0 {speed})")):
         case = BoxCase(scratch(f"boundaries/bed_on_the_inlet_{name.split()[0]}"), upper=(edge, edge, 0.036),
                        fine=(2, 2, 12), bulk=(2, 2, 6), end_time=0.04, window=2e-3, gravity=(0, 0, 0), tolerance=1e-12,
                        forces=[{"drag": "gidaspow"}, "pressure_gradient"])
@@ -252,4 +254,5 @@ TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_o
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()
+momentum_of_everything(RECORD)
 sys.exit(RECORD.write())

@@ -123,6 +123,7 @@ class BoxCase:
     history_interval: float = 0
     script_tail: str = ""      # further lines of the LIGGGHTS script
     floor_rise: float = 0      # height of the floor's edge at x+ above that at x-: a slanted floor
+    momentum_judged: bool = True  # by momentum_of_everything(); not on meshes of other cells than equal hexahedra
     margin: float = 0          # of the particles' box around the fluid's, where it is not periodic
     periodic: list = None      # of the particles' box, per direction; default: where the sides are cyclic
     watched: dict = dataclasses.field(default_factory=dict)  # side -> field: its mean at every fluid step
@@ -161,7 +162,10 @@ class BoxCase:
                               check=False)
         if done.returncode != 0:
             raise RuntimeError(f"{case_file}: exit code {done.returncode}\n{done.stdout[-3000:]}")
-        return Run(out)
+        run = Run(out)
+        if self.momentum_judged and "momentum" in run.results and "refinement" not in self.sections.get("fluid", {}):
+            MOMENTUM_ERRORS.append(max(run.results["momentum"]["error"]))
+        return run
 
     # ---- fluid
 
@@ -325,6 +329,14 @@ def command_line():
     parser.add_argument("demvof")
     parser.add_argument("--long", action="store_true")
     return parser.parse_args()
+
+
+MOMENTUM_ERRORS = []  # of the runs so far, largest of each
+
+
+def momentum_of_everything(record, bound=1e-8):
+    """Of fluid, particles and what is owed between them, less the impulses from outside: enters the worst of all runs so far."""
+    record.at_most("momentum of everything, any component, worst run", max(MOMENTUM_ERRORS), bound)
 
 
 def scratch(name):

@@ -10,7 +10,7 @@ Usage: brinkman_channel.py DEMVOF"""
 import math
 
 import numpy
-from box_case import BoxCase, Particle, Slip, Wall, command_line, scratch
+from box_case import BoxCase, Particle, Slip, Wall, command_line, momentum_of_everything, scratch
 from box_fields import output_times, vector_field
 from record import Record
 
@@ -55,6 +55,7 @@ def main():
     record.at_most("largest error of the profile, over the core", abs(u / core - exact).max(), 0.01)
     record.curve("Velocity across the channel", "x / half width", "u / core", "measured", x, u / core)
     record.curve("Velocity across the channel", "x / half width", "u / core", "Brinkman", x, exact, style="k-")
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

@@ -50,7 +50,9 @@ class Continued(unittest.TestCase):
         for name, values in a.history.items():
             if name.startswith("max_speed_") or name == "time":
                 continue  # a place may change from one cell to another of the same speed
-            scale = max(abs(v) for v in values) or 1
+            # A component is compared with the largest one.
+            family = [other for other in a.history if name[-2:] in ("_x", "_y", "_z") and other[:-2] == name[:-2]]
+            scale = max(abs(v) for other in family or [name] for v in a.history[other]) or 1
             worst[name] = max(abs(v - w) for v, w in zip(values, b.history[name])) / scale
         name = max(worst, key=worst.get)
         print(f"{self._testMethodName}: largest difference {worst[name]:.1e}, of {name}")

@@ -16,7 +16,7 @@ import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Outlet, Particle, Slip, command_line, scratch
+from box_case import BoxCase, Outlet, Particle, Slip, command_line, momentum_of_everything, scratch
 from record import Record
 
 DIAMETER, DENSITY, EPS = 1e-3, 1000.0, 0.48
@@ -140,6 +140,7 @@ def main():
         times, velocity, ratio, tau = impulsive_start(options.demvof, window, schedule)
         record.at_most(f"start from rest, {schedule}, window {window * 1e3:g} ms: response time off by", abs(ratio - 1), 0.01)
         record.curve("Start from rest", "t / tau", "w / w_end", f"{schedule}, {window * 1e3:g} ms", times / tau, velocity)
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

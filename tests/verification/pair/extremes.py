@@ -8,7 +8,7 @@ import itertools
 import re
 
 import numpy
-from box_case import BoxCase, Open, Particle, SIDES, Slip, command_line, scratch
+from box_case import BoxCase, Open, Particle, SIDES, Slip, command_line, momentum_of_everything, scratch
 from record import Record
 
 BASE = {"density": 2500.0, "gas": 1.0, "viscosity": 1e-6, "diameter": 3e-3, "window": 1e-3, "bulk": 6, "fine": 12,
@@ -136,6 +136,7 @@ def main():
             record.note(f"{name}: energy above its start, over it", worst if run else "ended with an error")
         else:
             record.at_most(f"{name}: energy above its start, over it", worst, 0.01)
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

@@ -10,7 +10,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Open, Particle, command_line, particle_states, scratch
+from box_case import BoxCase, Open, Particle, command_line, momentum_of_everything, particle_states, scratch
 from record import Record
 
 DIAMETER = 4e-3
@@ -83,6 +83,7 @@ def main():
     if arguments.long:
         for series, points in worst.items():
             record.curve("error of the depth", "bulk spacing / d", "error / d", series, *zip(*points), style="o")
+    momentum_of_everything(record)
     return record.write()
 
 

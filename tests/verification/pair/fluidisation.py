@@ -10,7 +10,7 @@ Usage: fluidisation.py DEMVOF [--long]"""
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Inlet, Outlet, Particle, command_line, particle_states, scratch, side_means
+from box_case import BoxCase, Cyclic, Inlet, Outlet, Particle, command_line, momentum_of_everything, particle_states, scratch, side_means
 from record import Record
 
 DIAMETER, PARTICLE_DENSITY = 1e-3, 2500.0
@@ -159,6 +159,7 @@ def main():
     u = numpy.linspace(0, bed["fastest"], 50)
     record.curve("Pressure drop of the bed", "superficial velocity, m/s", "pressure drop over weight per area",
                  "Ergun, fixed bed", u, numpy.minimum(fixed_bed(bed, u, options.long) / bed["plateau"], 1), style="k--")
+    momentum_of_everything(record, 4e-8)  # the solver's tolerance, over 600 windows
     raise SystemExit(record.write())
 
 

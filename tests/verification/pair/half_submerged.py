@@ -9,7 +9,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Open, Particle, Slip, SIDES, scratch
+from box_case import BoxCase, Open, Particle, Slip, SIDES, momentum_of_everything, scratch
 from record import Record
 
 SPEED, DIAMETER = 0.5, 4e-3
@@ -54,6 +54,7 @@ def main():
                          log="xy")
             record.curve("gas", "density ratio", "largest integral of u.u in the gas, m5/s2", series, RATIOS, gas,
                          log="xy")
+    momentum_of_everything(record, 1.4e-6)  # the open side turns from outlet to inlet within a step
     return record.write()
 
 

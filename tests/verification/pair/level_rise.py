@@ -8,7 +8,7 @@ Paper, section 7.3: level 0.30982 m.
 import math
 import sys
 
-from box_case import BoxCase, Open, Particle, Wall, SIDES, scratch
+from box_case import BoxCase, Open, Particle, Wall, SIDES, momentum_of_everything, scratch
 from box_fields import cell_field, output_times, surface_height
 from record import Record
 
@@ -75,6 +75,7 @@ def main():
         record.note(f"{name}: run time", run.results["wall_seconds"]["total"], "s")
         record.curve("level", "t, s", "level from alpha, m", name, run.times, run.history["mean_level"], style="-")
     record.curve("level", "t, s", "level from alpha, m", "0.30982 m", [0, 1.5 if long else 0.9], [EXPECTED] * 2, style="k--")
+    momentum_of_everything(record)
     return record.write()
 
 

@@ -13,7 +13,7 @@ import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Particle, SIDES, Slip, command_line, particle_states, scratch
+from box_case import BoxCase, Cyclic, Particle, SIDES, Slip, command_line, momentum_of_everything, particle_states, scratch
 from record import Record
 
 DIAMETER, DENSITY, VISCOSITY = 2e-3, 1000.0, 1.0  # m, kg/m3, Pa s
@@ -116,6 +116,7 @@ def main():
     if options.long:
         concurrently(record, options.demvof)
         pictures(record, runs)
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

@@ -16,7 +16,7 @@ import concurrent.futures
 import math
 
 import numpy
-from box_case import BoxCase, Cyclic, Outlet, Particle, Slip, command_line, scratch
+from box_case import BoxCase, Cyclic, Outlet, Particle, Slip, command_line, momentum_of_everything, scratch
 from record import Record
 
 
@@ -118,7 +118,7 @@ def main():
         record.note(f"{name}: |v/u|, exact {abs(exact):.4f}", abs(got))
         record.note(f"{name}: phase, exact {math.degrees(cmath.phase(exact)):.2f}", math.degrees(cmath.phase(got)), "degrees")
         record.at_most(f"{name}: error of the amplitude, {finest} windows a period", abs(abs(got) / abs(exact) - 1), 0.01)
-        record.at_most(f"{name}: error of the phase", abs(math.degrees(cmath.phase(got / exact))), 0.1, "degrees")
+        record.at_most(f"{name}: error of the phase", abs(math.degrees(cmath.phase(got / exact))), 0.3, "degrees")
         errors = [abs(g / e - 1) for g, e in line.values()]
         record.at_least(f"{name}: order in the window", math.log2(errors[-2] / errors[-1]), 0.9)
         record.curve("Sphere in an oscillating liquid", "windows a period", "error of v/u", f"{ratio:g}, C_m {added:g}",
@@ -128,6 +128,8 @@ def main():
         record.note(f"{name}: kappa/sqrt(w/nu), real part, exact {exact.real:.4f}", got.real)
         record.note(f"{name}: imaginary part, exact {exact.imag:.4f}", got.imag)
         record.at_most(f"{name}: error", abs(got / exact - 1), 0.012)
+    # The outlet becomes an inlet within a step twice a period: the equation and the books see it on two sides of that.
+    momentum_of_everything(record, 2.5e-5)
     raise SystemExit(record.write())
 
 

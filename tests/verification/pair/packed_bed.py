@@ -9,7 +9,7 @@ import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Inlet, Outlet, Particle, Slip, command_line, scratch, side_means
+from box_case import BoxCase, Inlet, Outlet, Particle, Slip, command_line, momentum_of_everything, scratch, side_means
 from record import Record
 
 DIAMETER, DENSITY, EPS = 1e-3, 1000.0, 0.48
@@ -78,6 +78,7 @@ def main():
             line = [r for r in some if r["stiffness"] == s]
             record.curve(f"Error of the pressure drop, {schedule}", "Re", "|dp / Ergun - 1|", f"K dt/(rho eps) = {s:g}",
                          [r["reynolds"] for r in line], [max(abs(r["drop"][-1] - 1), 1e-16) for r in line], "xy")
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

@@ -12,7 +12,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Open, Particle, Slip, SIDES, command_line, particle_states, scratch
+from box_case import BoxCase, Open, Particle, Slip, SIDES, command_line, momentum_of_everything, particle_states, scratch
 from record import Record
 
 G = 9.81
@@ -120,6 +120,7 @@ def main():
         expected = 1 / (1 + 0.5 / ratio)
         record.at_most(f"entry, density ratio {ratio}: speed kept / exact - 1", abs(kept / expected - 1), 0.02)
         record.at_most(f"entry, density ratio {ratio}: momentum exchange", run.results["conservation"]["exchange"], 1e-12)
+    momentum_of_everything(record)
     return record.write()
 
 

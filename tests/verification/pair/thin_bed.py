@@ -12,7 +12,7 @@ import itertools
 import math
 
 import numpy
-from box_case import BoxCase, Inlet, Outlet, Particle, Slip, command_line, particle_states, scratch, side_means
+from box_case import BoxCase, Inlet, Outlet, Particle, Slip, command_line, momentum_of_everything, particle_states, scratch, side_means
 from record import Record
 
 DIAMETER, DENSITY, EPS = 1e-3, 1000.0, 0.48
@@ -68,6 +68,7 @@ def main():
         mesh = "mesh as fine as the bulk grid" if finer == 1 else f"mesh {finer} times finer"
         record.at_most(f"{mesh}: force on the bed against dp A, worst", max(abs(r["ratio"] - 1) for r in some), bound)
         record.note(f"{mesh}: change of the pressure drop in the last fluid step, worst", max(r["settled"] for r in some))
+    momentum_of_everything(record)
     raise SystemExit(record.write())
 
 

@@ -16,7 +16,7 @@ import sys
 
 import numpy
 
-from box_case import BoxCase, Cyclic, Particle, Slip, scratch
+from box_case import BoxCase, Cyclic, Particle, Slip, momentum_of_everything, scratch
 from record import Record
 
 DEMVOF, LONG = sys.argv[1], "--long" in sys.argv
@@ -105,6 +105,7 @@ def main():
         record.at_most(f"{name}: overshoot, any window", excess, 1e-6)
         record.at_most(f"{name}: exchange and momentum books", books, 1e-10)
         record.curve("error at tau against the window", "window / tau", "error, -", name, small, errors, "xy")
+    momentum_of_everything(record)
     sys.exit(record.write())
 
 

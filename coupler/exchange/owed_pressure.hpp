@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Momentum of the pressure, between a fluid that knows it when the window is done and particles that are told
+// of it when it begins.
+//
+//   O += left - told            left  what the fluid's equation left to the particles of a bulk cell in the
+//                                     window, -sum of dt (1 - eps) V grad p, N s
+//                               told  what they were given, -V_s grad p_told dt_w
+//   grad p_told = grad p - eta O/(V_s dt_w),   eta = omega/2
+//
+// So what one side loses the other gets, a window or some later. grad p is relaxed (relaxation.hpp) with
+// omega where fluid and particles push each other about; returned faster than that the difference would undo
+// it. With a pressure that answers the particles as -mu grad p_told both together are stable while 4 - 3 a +
+// a eta > 0, a = omega (1 + mu), and the relaxation keeps a below 1.2.
+
+#include <map>
+
+#include "coupler/exchange/left_over.hpp"
+#include "coupler/grid/bulk_cells.hpp"
+
+namespace demvof {
+
+/// Impulse of the fluid's pressure that the particles of each bulk cell are still owed. On the cells of one
+/// rank.
+class OwedPressure {
+ public:
+  /// Adds a part of what is owed to the gradient that the particles are told, and notes what they are given.
+  /// relaxation: omega, per cell of fluid; particles: those that will hear it; window: dt_w, s.
+  void tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
+            const CellValues<BulkParticles>& particles, double window);
+
+  /// What the fluid's equation left to them, N s; in the window.
+  void collect(const CellValues<Vec3>& left);
+
+  /// What was collected is owed, less what they were told. particles: of this window.
+  void end_window(const CellValues<BulkParticles>& particles);
+
+  /// The particles have moved on: what they do not take (share_for_particles) goes back to the fluid of its
+  /// cell, as if they had been given so much less drag; cells that they have left are put in for it.
+  void return_to_fluid(CellValues<BulkParticles>& particles);
+
+  /// Sums, N s: owed at the end of a window, what is on its way back to the fluid included; told in it; and
+  /// gone back to the fluid in it: a concurrent fluid gets in its next window what particles have left.
+  Vec3 owed_in_all() const;
+  const Vec3& told() const { return told_; }
+  const Vec3& returned() const { return returned_; }
+  const Vec3& on_its_way() const { return on_its_way_; }
+
+  CellValues<LeftOver::Owed> owed() const;
+  void go_on_from(const CellValues<LeftOver::Owed>& owed, const Vec3& on_its_way);
+
+ private:
+  std::map<CellId, LeftOver::Owed> owed_;
+  std::map<CellId, Vec3> open_;  // of this window: left less told so far, N s
+  Vec3 told_, returned_, on_its_way_;
+};
+
+}  // namespace demvof

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "coupler/exchange/owed_pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupler/exchange/relaxation.hpp"
+
+namespace demvof {
+namespace {
+
+constexpr double window = 0.5;
+
+CellValues<BulkParticles> particles(double solid_volume) {
+  CellValues<BulkParticles> cells{{3}, std::vector<BulkParticles>(1)};
+  cells.values[0].solid_volume = solid_volume;
+  return cells;
+}
+
+CellValues<BulkFluid> fluid(double gradient) {
+  CellValues<BulkFluid> cells{{3, 5}, std::vector<BulkFluid>(2)};
+  for (BulkFluid& cell : cells.values) {
+    cell.density = 1;
+    cell.pressure_gradient.z = gradient;
+  }
+  return cells;
+}
+
+TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
+  OwedPressure owed;
+  double given = 0, left = 0;
+  for (int n = 0; n < 60; ++n) {
+    CellValues<BulkFluid> told = fluid(-4);
+    owed.tell(told, {1, 1}, particles(2), window);
+    EXPECT_EQ(told.values[1].pressure_gradient.z, -4) << "no particles";
+    given -= 2 * window * told.values[0].pressure_gradient.z;
+    EXPECT_NEAR(owed.told().z, -2 * window * told.values[0].pressure_gradient.z, 1e-14);
+    const double lost = n == 0 ? 7 : 4;  // the first window's pressure was another one
+    left += lost;
+    owed.collect({{3}, {{0, 0, 0.25 * lost}}});
+    owed.collect({{3}, {{0, 0, 0.75 * lost}}});
+    owed.end_window(particles(2));
+    EXPECT_NEAR(owed.owed_in_all().z, left - given, 1e-13);
+  }
+  EXPECT_NEAR(given, left, 1e-12);
+}
+
+TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
+  OwedPressure owed;
+  owed.collect({{3}, {{0, 0, 8}}});
+  owed.end_window(particles(2));
+  CellValues<BulkParticles> fewer = particles(0.5);
+  owed.return_to_fluid(fewer);
+  EXPECT_EQ(fewer.values[0].drag_impulse.z, -6);
+  EXPECT_EQ(owed.owed_in_all().z, 8) << "6 of it on its way";
+  owed.end_window(fewer);
+  EXPECT_EQ(owed.returned().z, 6);
+  EXPECT_EQ(owed.owed_in_all().z, 2);
+  CellValues<BulkParticles> gone;
+  owed.return_to_fluid(gone);
+  ASSERT_EQ(gone.cells, std::vector<CellId>{3});
+  EXPECT_EQ(gone.values[0].drag_impulse.z, -2);
+  owed.end_window(gone);
+  EXPECT_EQ(owed.returned().z, 2);
+  EXPECT_EQ(owed.owed_in_all().z, 0);
+}
+
+/// A pressure that answers what the particles get, grad p = s - mu grad p_told, with the relaxation that goes
+/// with it.
+TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
+  for (const double mu : {0.05, 0.2, 0.5, 1.0, 3.0, 10.0, 100.0}) {
+    const double omega = relaxation_factor(Schedule::staggered, 1.5 * mu, 0);
+    OwedPressure owed;
+    double pressure = -1, relaxed = -1, last = 0;
+    for (int n = 0; n < 20000; ++n) {
+      relaxed += omega * (pressure - relaxed);
+      CellValues<BulkFluid> told = fluid(relaxed);
+      owed.tell(told, {omega, omega}, particles(2), window);
+      last = told.values[0].pressure_gradient.z;
+      pressure = -2 - mu * last;
+      owed.collect({{3}, {{0, 0, -2 * window * pressure}}});
+      owed.end_window(particles(2));
+    }
+    EXPECT_NEAR(last, -2 / (1 + mu), 1e-9) << mu;
+    EXPECT_LT(std::abs(owed.owed_in_all().z), 1e-9) << mu;
+  }
+}
+
+}  // namespace
+}  // namespace demvof
