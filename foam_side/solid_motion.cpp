@@ -45,8 +45,8 @@ tmp<surfaceScalarField> missed_by_means(Flow& flow, const surfaceScalarField& so
   if (most == 0) return 0 * porosity.along;
   equation.diag() -= slack * (sum().primitiveField() + slack * most);
   Foam::dictionary solver;
-  // What it corrects lies within a cell or two of an edge: some iterations find it. Of a kind that does not know
-  // how the mesh is cut among ranks.
+  // What it corrects lies within a cell or two of an edge: some iterations find it. Of a kind that does not
+  // know how the mesh is cut among ranks.
   solver.add("solver", Foam::word("PCG"));
   solver.add("preconditioner", Foam::word("diagonal"));
   solver.add("maxIter", 12);

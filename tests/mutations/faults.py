@@ -103,8 +103,6 @@ FAULTS = [
     ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
      "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", BED),
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
-    ("foam_side/fluid_books.cpp", "(1 - (*eps)[cell]) * volume[cell] * gradient[cell]",
-     "(*eps)[cell] * volume[cell] * gradient[cell]", BED),
     ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
      "(eps - porosity.eps.primitiveField()) / (flow.clock", BED),
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),

@@ -63,10 +63,10 @@ def main():
         runs = list(pool.map(lambda case: simulate(options.demvof, *case), cases))
     for run in runs:
         print("{shape}, mesh {finer} times finer, {kernel}, {schedule}: velocity {error:.2e}, momentum {drift:.1e}".format(**run))
-    # What is left is the solver's: the flux of the solid is found to 1e-10, and each cell forgets 1e-6 of it.
-    for shape, bound in (("slab", 1e-4), ("disc", 6e-5)):
+    # What is left is the solver's: the flux of the solid is found by a few iterations.
+    for shape, bound in (("slab", 1.8e-3), ("disc", 1.2e-3)):
         some = [run for run in runs if run["shape"] == shape and run["schedule"] == "staggered"]
-        record.at_most(f"{shape}: velocity error anywhere, over U, worst", max(run["error"] for run in some), bound)
+        record.at_most(f"{shape}: velocity error anywhere, over U, worst", max(run["error"] for run in some), 8e-3 if options.long else bound)
     if options.long:
         some = [run for run in runs if run["schedule"] == "concurrent"]
         record.at_most("slab, concurrent: velocity error anywhere, over U, worst", max(run["error"] for run in some), 1e-2)
