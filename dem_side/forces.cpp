@@ -257,7 +257,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     row.contacts.touching += touches(contact, weight);
     ++row.contacts.evaluations;
     if (!half_step_) row.path += step * velocity;  // that of the half step: what the position has moved with
-    if (moves && !half_step_) {  // Dem::set_up() has given half a step of these
+    if (moves && !half_step_) {                    // Dem::set_up() has given half a step of these
       row.contacts.impulse += step * contact;
       sums.contact += contact;
       sums.gravity += weight;
@@ -275,7 +275,6 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
                                                                      norm(row.fluid[k].velocity - velocity));
       continue;
     }
-
     const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, step);
     struct Part {  // in one fluid
       double beta = 0, added = 0;
