@@ -13,13 +13,10 @@
 
 #include "foam_side/particles_to_fine.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "coupler/base/errors.hpp"
 #include "coupler/base/sphere.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/exchange/solid_in_fluids.hpp"
@@ -123,17 +120,13 @@ scalarField ParticlesToFine::void_fraction(double part) {
   forAll(eps, cell) {
     spread_.negative_cells += solid[cell] < 0;
     eps[cell] = 1 - std::max(solid[cell], 0.0);
+    spread_.full_cells += eps[cell] < smallest_void_fraction;
+    eps[cell] = std::max(eps[cell], smallest_void_fraction);
     spread_.solid_volume += (1 - eps[cell]) * flow_.mesh.V()[cell];
-    if (eps[cell] >= smallest_void_fraction) continue;
-    const vector& at = flow_.mesh.C()[cell];
-    throw RunError(fmt::format(
-        "void fraction {:.3g} in the fine cell at ({:.5g} {:.5g} {:.5g}) m leaves no room for the fluid "
-        "(smallest possible: {}). Try a coarser bulk_grid, a larger coupling.averaging.width or a smaller "
-        "coupling.averaging.maximum_solid_fraction.",
-        eps[cell], at.x(), at.y(), at.z(), smallest_void_fraction));
   }
   Foam::reduce(spread_.solid_volume, Foam::sumOp<double>());
   Foam::reduce(spread_.negative_cells, Foam::sumOp<long>());
+  Foam::reduce(spread_.full_cells, Foam::sumOp<long>());
   Foam::reduce(spread_.moved_volume, Foam::sumOp<double>());
   for (const Droplet& droplet : droplets_)
     if (part < 1)

@@ -42,6 +42,7 @@ class ParticlesToFine {
   struct Spread {
     double solid_volume = 0;  // on the fine mesh, m3
     long negative_cells = 0;  // fine cells in which an interpolation went below zero: they got none
+    long full_cells = 0;      // fine cells with more solid than leaves room for the fluid: they got less
     double moved_volume = 0;  // that found no room in its own fluid of a bulk cell: it is in the other, m3
   };
   const Spread& spread() const { return spread_; }

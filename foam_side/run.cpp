@@ -190,6 +190,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.fluid.kept_left_over = bridge.kept_left_over();
     if (flow.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
     done.negative_cells = to_fine.spread().negative_cells;
+    done.full_cells = to_fine.spread().full_cells;
     enter_books(flow, done.fluid);
     if (replaces) {
       done.replacement = replacement;

@@ -195,6 +195,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
     if (window.particles) {
       enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
+      limits_.full_cells += window.full_cells;
     }
     if (window.replacement) {
       const ReplacementBooks& books = *window.replacement;
@@ -288,6 +289,13 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
         "coupling.mapping.to_fine interpolated a solid fraction below 0, {} times: it was taken as "
         "0, and conservation.solid_volume has the error",
         limits_.negative_cells));
+  if (limits_.full_cells > 0)
+    lines.push_back(fmt::format(
+        "fine cells kept a void fraction of 0.05 though particles fill more of them, {} times: so much is "
+        "not "
+        "displaced, and conservation.solid_volume has the error. Try a coarser bulk_grid, a larger "
+        "coupling.averaging.width or a smaller coupling.averaging.maximum_solid_fraction",
+        limits_.full_cells));
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));

@@ -56,6 +56,7 @@ class RunRecord {
     double relaxation = 1;         // smallest relaxation factor of what the particles were told
     long relaxed_cells = 0;        // bulk cells with a factor below 1
     long negative_cells = 0;       // fine cells whose solid fraction was interpolated below 0
+    long full_cells = 0;           // fine cells with more solid than leaves room for the fluid
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
     std::optional<ParticleReport> particles;      // not without particles
     FluidSeconds seconds;
@@ -91,6 +92,7 @@ class RunRecord {
   /// Limits that acted, over the windows so far.
   struct Limits {
     long relieved_cells = 0, waiting_particles = 0, outside_particles = 0, negative_cells = 0;
+    long full_cells = 0;
     long crossing_windows = 0;
     double drop_resolution = 1e9;                     // fewest cells per diameter
     double relieved_volume = 0, unplaced_volume = 0;  // m3

@@ -248,7 +248,26 @@ def out_with_the_stream():
                        run.number("conservation.solid_volume"), 6e-14)
 
 
-TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream]
+# ---- no room
+
+def no_room_for_the_fluid():
+    """A sphere larger than its bulk cell, whose kernel puts all that fits there: the fine cell keeps 0.05 of fluid."""
+    spacing, diameter = 2e-3, 3e-3
+    case = BoxCase(scratch("boundaries/no_room"), (6 * spacing,) * 3, (6, 6, 6), (6, 6, 6), 5e-3, 1e-3,
+                   particles=[Particle((2.5 * spacing,) * 3, diameter, 2500, held=True)],
+                   coupling={"averaging": {"kernel": "centre", "maximum_solid_fraction": 1.0}})
+    case.sides["z+"] = Open()
+    run = case.run(DEMVOF)
+    RECORD.at_least("no room for the fluid: warnings that say so",
+                    sum("kept a void fraction of 0.05" in line and " 5 times" in line for line in run.results["warnings"]), 1)
+    left_out = 0.05 * spacing**3 / (numpy.pi / 6 * diameter**3)
+    RECORD.at_most("no room for the fluid: what the books say is not displaced, against 0.05 of a cell",
+                   abs(run.number("conservation.solid_volume") / left_out - 1), 5e-13)
+    RECORD.at_most("no room for the fluid: exchange error", run.number("conservation.exchange"), 1.8e-15)
+
+
+TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream,
+         no_room_for_the_fluid]
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()
