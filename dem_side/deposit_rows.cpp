@@ -31,6 +31,7 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
       const double push = (1 + parameters_.added_mass) * sphere_volume(radius) / inertia;
       here.pressure_mobility = theta * here.solid_volume * push;
       here.following_volume = (1 - theta) * here.solid_volume;
+      here.following_response = (1 - theta) * drag_response(tangent, mass, window_, 0, added, other);
     }
     here.drag_impulse = fluid.drag_impulse;
     here.drag_factor = beta;

@@ -51,6 +51,7 @@ void Bridge::remap() {
 
 void Bridge::take(std::vector<CellValues<BulkParticles>> particles) {
   for (std::size_t k = 0; k < particles.size(); ++k) {
+    told_[k].refer_to_own_cell(particles[k]);
     left_over_[k].return_to_fluid(particles[k]);
     owed_pressure_[k].return_to_fluid(particles[k]);
   }
@@ -87,12 +88,12 @@ bool Bridge::owe(const Vec3& position, const Vec3& impulse) {
 void Bridge::collect_pressure() {
   if (!flow_.porosity) return;
   const Foam::vectorField gradient = pressure_gradient(flow_, tells_jump_);
-  const std::vector<CellValues<Vec3>> left = particles_to_fine_.left_to_particles(gradient);
+  const auto left = particles_to_fine_.left_to_particles(gradient);
   for (std::size_t k = 0; k < left.size(); ++k) {
     if (owes_pressure_)
-      owed_pressure_[k].collect(left[k]);
+      owed_pressure_[k].collect(left[k], flow_.time.deltaTValue());
     else
-      for (const Vec3& impulse : left[k].values) unclaimed_ += impulse;
+      for (const OwedPressure::Left& cell : left[k].values) unclaimed_ += cell.impulse;
   }
   if (!flow_.scene.surface_tension || tells_jump_) return;
   const Foam::vectorField whole = pressure_gradient(flow_, true);
@@ -174,7 +175,7 @@ std::vector<Bridge::State> Bridge::state() const {
   for (std::size_t k = 0; k < told_.size(); ++k) {
     const ParticlesToFine::InFluid& fluid = particles_to_fine_.state()[k];
     state.push_back({fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells(),
-                     owed_pressure_[k].owed(), owed_pressure_[k].on_its_way()});
+                     owed_pressure_[k].state()});
   }
   return state;
 }
@@ -188,7 +189,7 @@ void Bridge::go_on_from(std::vector<State> state) {
                          std::move(state[k].solid_volume_before)});
     left_over_[k].go_on_from(std::move(state[k].left_over));
     told_[k].go_on_from(std::move(state[k].told));
-    owed_pressure_[k].go_on_from(state[k].owed_pressure, state[k].returned_pressure);
+    owed_pressure_[k].go_on_from(state[k].owed_pressure);
   }
   particles_to_fine_.go_on_from(std::move(particles));
 }

@@ -75,8 +75,7 @@ class Bridge {
     CellValues<Vec3> felt_shift;
     CellValues<double> solid_volume_before;
     CellValues<ToldFluid::Cell> told;
-    CellValues<LeftOver::Owed> owed_pressure;
-    Vec3 returned_pressure;  // on its way to the fluid
+    OwedPressure::State owed_pressure;
   };
   std::vector<State> state() const;  // by fluid
   /// Goes on from the state at the end of a window. After the particles of that time have been taken.

@@ -196,13 +196,16 @@ void ParticlesToFine::spread_sources() {
   const SharingWeights weights(flow_, surface_, cut_, coupling_.sharing);
   for (int k = 0; k < surface_.fluids(); ++k) {
     // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
-    // it.
+    // it; of w V u for fluid k.
     struct Totals {
       double own = 0, all = 0;
+      Vec3 velocity;
     };
     std::vector<Totals> total(touched_[k].size());
     for (const Piece& piece : pieces) {
-      total[piece.slot].own += weights.of(k, piece).force;
+      const double own = weights.of(k, piece).force;
+      total[piece.slot].own += own;
+      total[piece.slot].velocity += own * to_vec3(flow_.U[piece.fine]);
       total[piece.slot].all += weights.of_any(piece);
     }
     total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
@@ -221,7 +224,9 @@ void ParticlesToFine::spread_sources() {
       coefficient_part_[k][i] = share * bulk.coefficient;
       source.force[piece.fine] += share * to_foam(bulk.explicit_force);
       source.coefficient[piece.fine] += coefficient_part_[k][i];
-      source.reference[piece.fine] += coefficient_part_[k][i] * to_foam(bulk.reference_velocity);
+      Vec3 reference = bulk.reference_velocity;
+      if (sum.own > 0) reference += bulk.following * (to_vec3(flow_.U[piece.fine]) - sum.velocity / sum.own);
+      source.reference[piece.fine] += coefficient_part_[k][i] * to_foam(reference);
     }
   }
   for (std::vector<double>& parts : coefficient_part_)
@@ -256,7 +261,8 @@ bool ParticlesToFine::hands_back() const {
 }
 
 // -(1 - eps) V grad p dt of a fine cell goes to its pieces as their bulk cells have solid of each fluid.
-std::vector<CellValues<Vec3>> ParticlesToFine::left_to_particles(const Foam::vectorField& gradient) const {
+std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
+    const Foam::vectorField& gradient) const {
   const std::vector<Piece>& pieces = cut_.remap().pieces();
   const int fluids = static_cast<int>(state_.size());
   std::vector<std::vector<double>> part(state_.size());  // of each piece
@@ -272,16 +278,18 @@ std::vector<CellValues<Vec3>> ParticlesToFine::left_to_particles(const Foam::vec
     }
   }
   const double dt = flow_.time.deltaTValue();
-  std::vector<CellValues<Vec3>> left;
+  std::vector<CellValues<OwedPressure::Left>> left;
   for (int k = 0; k < fluids; ++k) {
-    std::vector<Vec3> impulse(cut_.cells().cells().size());
+    std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const label cell = pieces[i].fine;
-      if (sum[cell] > 0)
-        impulse[pieces[i].slot] -= part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) *
-                                   flow_.mesh.V()[cell] * to_vec3(gradient[cell]);
+      if (!(sum[cell] > 0)) continue;
+      const double exposed =
+          part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) * flow_.mesh.V()[cell];
+      here[pieces[i].slot].impulse -= exposed * to_vec3(gradient[cell]);
+      here[pieces[i].slot].exposed += exposed;
     }
-    left.push_back(cut_.cells().sum_to_owners(impulse));
+    left.push_back(cut_.cells().sum_to_owners(here));
   }
   return left;
 }

@@ -5,6 +5,7 @@
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/exchange/crossing.hpp"
+#include "coupler/exchange/owed_pressure.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/surface_to_bulk.hpp"
@@ -70,9 +71,9 @@ class ParticlesToFine {
   bool hands_back() const;
   /// The fluid got an impulse (N s) from the particles in another way, which they are owed like the rest.
   void count_given(const Vec3& impulse) { collected_sum_ += impulse; }
-  /// What the pressure of the step just done left to the particles of each bulk cell, N s, by fluid: cells
-  /// owned by this rank. gradient: grad p, per fine cell.
-  std::vector<CellValues<Vec3>> left_to_particles(const Foam::vectorField& gradient) const;
+  /// What the pressure of the step just done left to the particles of each bulk cell, by fluid: cells owned
+  /// by this rank. gradient: grad p, per fine cell.
+  std::vector<CellValues<OwedPressure::Left>> left_to_particles(const Foam::vectorField& gradient) const;
 
   /// The window's impulses are complete.
   void end_window();

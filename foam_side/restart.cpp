@@ -49,6 +49,22 @@ CellValues<T> cell_values(const json& saved) {
   return read;
 }
 
+Vec3 vec3(const json& row) {
+  return {row.at(0), row.at(1), row.at(2)};
+}
+
+json as_json(const OwedPressure::State& state) {
+  const Vec3& way = state.on_its_way;
+  return {{"owed", as_json(state.owed)},
+          {"elsewhere", as_json(state.elsewhere)},
+          {"on_its_way", {way.x, way.y, way.z}}};
+}
+
+OwedPressure::State owed_pressure(const json& saved) {
+  return {cell_values<LeftOver::Owed>(saved.at("owed")), cell_values<Vec3>(saved.at("elsewhere")),
+          vec3(saved.at("on_its_way"))};
+}
+
 std::vector<double> components(const Foam::vectorField& values) {
   std::vector<double> row;
   for (const vector& v : values) row.insert(row.end(), {v.x(), v.y(), v.z()});
@@ -59,10 +75,6 @@ void read_components(const json& state, const char* name, Foam::vectorField& val
   const auto row = state.at(name).get<std::vector<double>>();
   forAll(values, cell) for (int axis = 0; axis < 3; ++axis) values[cell][axis] =
       row.at(static_cast<std::size_t>(3 * cell + axis));
-}
-
-Vec3 vec3(const json& row) {
-  return {row.at(0), row.at(1), row.at(2)};
 }
 
 json flow_state(const Flow& flow, const ForceParameters& forces) {
@@ -199,9 +211,7 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
                         {"told", as_json(fluid.told)},
-                        {"owed_pressure", as_json(fluid.owed_pressure)},
-                        {"returned_pressure",
-                         {fluid.returned_pressure.x, fluid.returned_pressure.y, fluid.returned_pressure.z}}});
+                        {"owed_pressure", as_json(fluid.owed_pressure)}});
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().told())},
@@ -278,8 +288,7 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
           {cell_values<BulkParticles>(fluid.at("particles")),
            cell_values<LeftOver::Owed>(fluid.at("left_over")), cell_values<Vec3>(fluid.at("felt_shift")),
            cell_values<double>(fluid.at("solid_volume_before")),
-           cell_values<ToldFluid::Cell>(fluid.at("told")),
-           cell_values<LeftOver::Owed>(fluid.at("owed_pressure")), vec3(fluid.at("returned_pressure"))});
+           cell_values<ToldFluid::Cell>(fluid.at("told")), owed_pressure(fluid.at("owed_pressure"))});
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));

@@ -17,19 +17,32 @@
 //
 // With conservative_implicit what the implicit part gave the fluid is owed to the particles:
 // M = C (u - u_ref) dt, handed over in the next window.
+// In a fine cell f of the bulk cell C (u_ref + lambda (u_f0 - u_0) - u_f) acts, u_f0 its velocity at the
+// start of the window and u_0 their mean: particles that follow the fluid do so where they are, and do not
+// pull it towards the mean of the bulk cell; those that do not, or are held, do.
+//
 // Sources: Pozzetti & Peters 2017 (semi-implicit, after Xiao & Sun 2011); the conservative scheme
 // is this project's own, docs/theory.md.
+
+#include <algorithm>
 
 #include "coupler/exchange/exchange_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 
 namespace demvof {
 
+/// lambda, -: of the response of a bulk cell's particles, the share of those that go with the fluid.
+inline double following_share(const BulkParticles& particles) {
+  return particles.drag_response > 0 ? std::min(1.0, particles.following_response / particles.drag_response)
+                                     : 0;
+}
+
 /// Force of the particles on the fluid of one bulk cell: explicit_force + coefficient (reference - u).
 struct FluidSource {
   Vec3 explicit_force;      // N
   double coefficient = 0;   // kg/s
-  Vec3 reference_velocity;  // m/s
+  Vec3 reference_velocity;  // m/s, mean over the cell
+  double following = 0;     // lambda, -
 };
 
 /// particles: of a window simulated by the DEM; window: s, > 0.
@@ -49,6 +62,7 @@ inline FluidSource fluid_source(ExchangeScheme scheme, const BulkParticles& part
     case ExchangeScheme::conservative_implicit:
       source.explicit_force = -particles.drag_impulse / window;
       source.coefficient = particles.drag_response;
+      source.following = following_share(particles);
       if (particles.drag_response > 0)
         source.reference_velocity = particles.response_weighted_velocity / particles.drag_response;
       break;

@@ -13,12 +13,14 @@ namespace demvof {
 void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
                         const CellValues<BulkParticles>& particles, double window) {
   told_ = {};
+  heard_.clear();
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
     const CellId cell = fluid.cells[i];
     const BulkParticles* here = find(particles, cell);
     if (!here || !(here->solid_volume > 0) || !(fluid.values[i].density > 0)) continue;
     Vec3& gradient = fluid.values[i].pressure_gradient;
     const Vec3 given = -(here->solid_volume * window) * gradient;
+    heard_[cell] = {here->solid_volume, gradient};
     open_[cell] -= given;
     told_ += given;
     const auto owed = owed_.find(cell);
@@ -30,9 +32,18 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
   }
 }
 
-void OwedPressure::collect(const CellValues<Vec3>& left) {
-  for (std::size_t i = 0; i < left.cells.size(); ++i)
-    if (norm(left.values[i]) > 0) open_[left.cells[i]] += left.values[i];
+void OwedPressure::collect(const CellValues<Left>& left, double step) {
+  for (std::size_t i = 0; i < left.cells.size(); ++i) {
+    const CellId cell = left.cells[i];
+    const auto& [impulse, exposed] = left.values[i];
+    Vec3 as_told;
+    if (const auto heard = heard_.find(cell); heard != heard_.end()) {
+      const double volume = heard->second.solid_volume;
+      as_told = exposed > 0 ? volume * step / exposed * impulse : -(volume * step) * heard->second.gradient;
+      open_[cell] += as_told;
+    }
+    if (norm(impulse - as_told) > 0) elsewhere_[cell] += impulse - as_told;
+  }
 }
 
 void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
@@ -47,42 +58,64 @@ void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
 }
 
 void OwedPressure::return_to_fluid(CellValues<BulkParticles>& particles) {
-  for (auto& [cell, owed] : owed_) {
+  const auto give = [&](CellId cell, const Vec3& back) {
     const auto place = std::lower_bound(particles.cells.begin(), particles.cells.end(), cell);
     const auto slot = place - particles.cells.begin();
-    const bool there = place != particles.cells.end() && *place == cell;
-    const double now = there ? particles.values[slot].solid_volume : 0;
-    const Vec3 back = (1 - share_for_particles(owed.solid_volume, now)) * owed.impulse;
-    if (norm(back) == 0) continue;
-    if (!there) {
+    if (place == particles.cells.end() || *place != cell) {
       particles.cells.insert(place, cell);
       particles.values.insert(particles.values.begin() + slot, BulkParticles{});
     }
     particles.values[slot].drag_impulse -= back;
-    owed.impulse -= back;
     on_its_way_ += back;
+  };
+  for (auto& [cell, owed] : owed_) {
+    const BulkParticles* here = find(particles, cell);
+    const Vec3 back =
+        (1 - share_for_particles(owed.solid_volume, here ? here->solid_volume : 0)) * owed.impulse;
+    if (norm(back) == 0) continue;
+    give(cell, back);
+    owed.impulse -= back;
   }
+  for (const auto& [cell, impulse] : elsewhere_) give(cell, impulse);
+  elsewhere_.clear();
 }
 
 Vec3 OwedPressure::owed_in_all() const {
   Vec3 sum = on_its_way_;
   for (const auto& [cell, owed] : owed_) sum += owed.impulse;
+  for (const auto& [cell, impulse] : elsewhere_) sum += impulse;
   return sum;
 }
 
-CellValues<LeftOver::Owed> OwedPressure::owed() const {
-  CellValues<LeftOver::Owed> all;
-  for (const auto& [cell, owed] : owed_) {
+namespace {
+
+template <class T>
+CellValues<T> as_cells(const std::map<CellId, T>& of) {
+  CellValues<T> all;
+  for (const auto& [cell, value] : of) {
     all.cells.push_back(cell);
-    all.values.push_back(owed);
+    all.values.push_back(value);
   }
   return all;
 }
 
-void OwedPressure::go_on_from(const CellValues<LeftOver::Owed>& owed, const Vec3& on_its_way) {
-  owed_.clear();
-  on_its_way_ = on_its_way;
-  for (std::size_t i = 0; i < owed.cells.size(); ++i) owed_[owed.cells[i]] = owed.values[i];
+template <class T>
+std::map<CellId, T> as_map(const CellValues<T>& of) {
+  std::map<CellId, T> all;
+  for (std::size_t i = 0; i < of.cells.size(); ++i) all[of.cells[i]] = of.values[i];
+  return all;
+}
+
+}  // namespace
+
+OwedPressure::State OwedPressure::state() const {
+  return {as_cells(owed_), as_cells(elsewhere_), on_its_way_};
+}
+
+void OwedPressure::go_on_from(const State& state) {
+  owed_ = as_map(state.owed);
+  elsewhere_ = as_map(state.elsewhere);
+  on_its_way_ = state.on_its_way;
 }
 
 }  // namespace demvof

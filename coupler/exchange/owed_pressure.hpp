@@ -4,10 +4,15 @@
 // Momentum of the pressure, between a fluid that knows it when the window is done and particles that are told
 // of it when it begins.
 //
-//   O += left - told            left  what the fluid's equation left to the particles of a bulk cell in the
-//                                     window, -sum of dt (1 - eps) V grad p, N s
-//                               told  what they were given, -V_s grad p_told dt_w
+//   O += (V_s/V_e) left - told    left  what the fluid's equation left to the particles of a bulk cell in the
+//                                       window, -sum of dt (1 - eps) V grad p, N s
+//                                 told  what they were given, -V_s grad p_told dt_w
+//                                 V_e   sum of dt (1 - eps) V/dt_w
 //   grad p_told = grad p - eta O/(V_s dt_w),   eta = omega/2
+//
+// The particles are given the pressure of where they were when it was told, V_s; the void fraction moves on
+// in the window, V_e. (1 - V_s/V_e) left was left where they were not, and the fluid of the cell gets it
+// back: owed to those who come there, it would pull a single sphere back by 1 % of its weight.
 //
 // So what one side loses the other gets, a window or some later. grad p is relaxed (relaxation.hpp) with
 // omega where fluid and particles push each other about; returned faster than that the difference would undo
@@ -30,8 +35,13 @@ class OwedPressure {
   void tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
             const CellValues<BulkParticles>& particles, double window);
 
-  /// What the fluid's equation left to them, N s; in the window.
-  void collect(const CellValues<Vec3>& left);
+  /// What the fluid's equation left to the particles of a cell in a part of the window.
+  struct Left {
+    Vec3 impulse;        // N s
+    double exposed = 0;  // solid volume times time, m3 s
+  };
+  /// step: of the fluid, s.
+  void collect(const CellValues<Left>& left, double step);
 
   /// What was collected is owed, less what they were told. particles: of this window.
   void end_window(const CellValues<BulkParticles>& particles);
@@ -45,14 +55,24 @@ class OwedPressure {
   Vec3 owed_in_all() const;
   const Vec3& told() const { return told_; }
   const Vec3& returned() const { return returned_; }
-  const Vec3& on_its_way() const { return on_its_way_; }
 
-  CellValues<LeftOver::Owed> owed() const;
-  void go_on_from(const CellValues<LeftOver::Owed>& owed, const Vec3& on_its_way);
+  struct State {
+    CellValues<LeftOver::Owed> owed;
+    CellValues<Vec3> elsewhere;  // goes back to the fluid, N s
+    Vec3 on_its_way;             // went back to the fluid with the last rows, N s
+  };
+  State state() const;
+  void go_on_from(const State& state);
 
  private:
   std::map<CellId, LeftOver::Owed> owed_;
-  std::map<CellId, Vec3> open_;  // of this window: left less told so far, N s
+  struct Told {
+    double solid_volume = 0;  // m3
+    Vec3 gradient;            // without what was owed, Pa/m
+  };
+  std::map<CellId, Told> heard_;      // by whom, in this window
+  std::map<CellId, Vec3> open_;       // of this window: left less told so far, N s
+  std::map<CellId, Vec3> elsewhere_;  // left where they were not, N s
   Vec3 told_, returned_, on_its_way_;
 };
 

@@ -57,4 +57,14 @@ void ToldFluid::relax(CellValues<BulkFluidGradients>& gradients) {
   }
 }
 
+void ToldFluid::refer_to_own_cell(CellValues<BulkParticles>& particles) const {
+  for (std::size_t i = 0; i < particles.cells.size(); ++i) {
+    const Cell* told = find(told_, particles.cells[i]);
+    if (!told) continue;
+    BulkParticles& cell = particles.values[i];
+    Vec3& reference = cell.response_weighted_velocity;
+    reference += following_share(cell) * (cell.drag_response * told->velocity - reference);
+  }
+}
+
 }  // namespace demvof

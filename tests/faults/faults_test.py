@@ -179,7 +179,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(status(self.out)["status"], "failed")
 
     def test_mpirun_killed(self):
-        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1)  # the ranks live on for about 1 s
         pair = Pair(DEMVOF, self.case_file, self.out)
         pair.wait_for_window(2)
         os.kill(pair.pids("mpirun")[0], signal.SIGKILL)
@@ -191,7 +191,7 @@ class Faults(unittest.TestCase):
     # ---- crashes
 
     def check_crash(self, victim, number, side):
-        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1)
         pair = Pair(DEMVOF, self.case_file, self.out, "--fluid-ranks", "2")
         pair.wait_for_window(2)
         os.kill(pair.pids(victim)[-1], number)
@@ -211,7 +211,7 @@ class Faults(unittest.TestCase):
     # ---- one run, one folder
 
     def test_a_second_run_is_told_who_is_there(self):
-        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40))
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=0.03)
         pair = Pair(DEMVOF, self.case_file, self.out)
         pair.wait_for_window(2)
         for options in (("--continue",), ()):

@@ -38,8 +38,8 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
     EXPECT_NEAR(owed.told().z, -2 * window * told.values[0].pressure_gradient.z, 1e-14);
     const double lost = n == 0 ? 7 : 4;  // the first window's pressure was another one
     left += lost;
-    owed.collect({{3}, {{0, 0, 0.25 * lost}}});
-    owed.collect({{3}, {{0, 0, 0.75 * lost}}});
+    owed.collect({{3}, {{{0, 0, 0.25 * lost}, 2 * 0.25 * window}}}, 0.25 * window);
+    owed.collect({{3}, {{{0, 0, 0.75 * lost}, 2 * 0.75 * window}}}, 0.75 * window);
     owed.end_window(particles(2));
     EXPECT_NEAR(owed.owed_in_all().z, left - given, 1e-13);
   }
@@ -48,7 +48,9 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
 
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   OwedPressure owed;
-  owed.collect({{3}, {{0, 0, 8}}});
+  CellValues<BulkFluid> told = fluid(0);
+  owed.tell(told, {1, 1}, particles(2), window);
+  owed.collect({{3}, {{{0, 0, 8}, 2 * window}}}, window);
   owed.end_window(particles(2));
   CellValues<BulkParticles> fewer = particles(0.5);
   owed.return_to_fluid(fewer);
@@ -66,6 +68,33 @@ TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   EXPECT_EQ(owed.owed_in_all().z, 0);
 }
 
+/// In a uniform pressure gradient, told as it is, nothing is owed to particles on their way from cell 3 to
+/// cell 5.
+TEST(OwedPressure, OwesNothingForTheWayOfTheParticles) {
+  constexpr double gradient = -4;
+  OwedPressure owed;
+  CellValues<BulkFluid> told = fluid(gradient);
+  owed.tell(told, {1, 1}, particles(2), window);
+  for (const double there : {0.25, 1.0}) {  // after two steps, of which the second ends with nobody in cell 3
+    const double step = 0.5 * window, exposed = 2 * step * (1 - there), other = 2 * step * there;
+    owed.collect({{3, 5}, {{{0, 0, -gradient * exposed}, exposed}, {{0, 0, -gradient * other}, other}}},
+                 step);
+  }
+  CellValues<BulkParticles> moved{{5}, std::vector<BulkParticles>(1)};
+  moved.values[0].solid_volume = 2;
+  owed.end_window(moved);
+  EXPECT_NEAR(owed.owed_in_all().z, 0, 1e-15) << "the whole got what it lost";
+  owed.return_to_fluid(moved);
+  ASSERT_EQ(moved.cells, (std::vector<CellId>{3, 5}));
+  const double back = 2 * window * gradient * 0.625;  // of the solid that was in the other cell, on the mean
+  EXPECT_NEAR(moved.values[0].drag_impulse.z, -back, 1e-14);
+  EXPECT_NEAR(moved.values[1].drag_impulse.z, back, 1e-14);
+  owed.end_window(moved);
+  CellValues<BulkFluid> next = fluid(gradient);
+  owed.tell(next, {1, 1}, moved, window);
+  EXPECT_EQ(next.values[1].pressure_gradient.z, gradient);
+}
+
 /// A pressure that answers what the particles get, grad p = s - mu grad p_told, with the relaxation that goes
 /// with it.
 TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
@@ -79,7 +108,7 @@ TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
       owed.tell(told, {omega, omega}, particles(2), window);
       last = told.values[0].pressure_gradient.z;
       pressure = -2 - mu * last;
-      owed.collect({{3}, {{0, 0, -2 * window * pressure}}});
+      owed.collect({{3}, {{{0, 0, -2 * window * pressure}, 2 * window}}}, window);
       owed.end_window(particles(2));
     }
     EXPECT_NEAR(last, -2 / (1 + mu), 1e-9) << mu;
