@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a particle adds to the bulk grid at the end of a window, in liquid and gas by its shares in them.
 
+#include <utility>
+
 #include "coupler/base/sphere.hpp"
 #include "dem_side/forces.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
+
+void FluidForces::keep_to_reached_fluids(const std::function<bool(int, int)>& reached) {
+  double* const* rows = dem_.particle_rows(rows_name);
+  for (int i = 0; i < dem_.particles().count; ++i) {
+    CarriedRow& row = carried_by(rows, i);
+    for (int k = 0; k < 2; ++k) {
+      if (reached(k, i) || !reached(1 - k, i)) continue;
+      if (row.share(k) > 0) row.surface = {k == 0 ? 1.0 : 0.0, {}};
+      row.fluid[1 - k].drag_impulse += std::exchange(row.fluid[k].drag_impulse, {});
+    }
+  }
+}
 
 std::vector<BulkParticles> FluidForces::contributions(int k) const {
   const ParticleArrays particles = dem_.particles();
@@ -59,6 +73,7 @@ std::vector<BulkParticles> FluidForces::expected_contributions(int k) const {
         drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
                       held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
     expected[i].drag_impulse = {};
+    expected[i].following_response = 0;  // u_ref is to be this one in all of the cell
     expected[i].response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
   }
   return expected;

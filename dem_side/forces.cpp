@@ -194,15 +194,6 @@ void FluidForces::see_surface(const std::vector<SeenSurface>& surface) {
   }
 }
 
-void FluidForces::keep_to_reached_fluids(const std::function<bool(int, int)>& reached) {
-  double* const* rows = dem_.particle_rows(rows_name);
-  for (int i = 0; i < dem_.particles().count; ++i) {
-    CarriedRow& row = carried_by(rows, i);
-    for (int k = 0; k < 2; ++k)
-      if (row.share(k) > 0 && !reached(k, i) && reached(1 - k, i)) row.surface = {k == 0 ? 1.0 : 0.0, {}};
-  }
-}
-
 Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
                        const Vec3& slip) {
   if (parameters_.lift == LiftLaw::none) return {};

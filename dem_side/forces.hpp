@@ -103,7 +103,8 @@ class FluidForces {
   /// Sets what the surface makes of local particles that felt no fluid yet: at the start, and when they are
   /// new.
   void see_surface(const std::vector<SeenSurface>& surface);
-  /// What of a particle lies in a fluid that it does not reach on the bulk grid counts in the other one.
+  /// What of a particle lies in a fluid that it does not reach on the bulk grid counts in the other one, and
+  /// what it received from that fluid in the window.
   /// reached(k, i): local particle i reaches a cell with fluid k.
   void keep_to_reached_fluids(const std::function<bool(int, int)>& reached);
 

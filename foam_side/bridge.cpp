@@ -108,11 +108,13 @@ Bridge::PressureImpulses Bridge::pressure_impulses() const {
     all.told += fluid.told();
     all.owed += fluid.owed_in_all();
     all.returned += fluid.returned();
+    all.turnover += fluid.turnover();
   }
   all.tension = tension_;
   all.told += unclaimed_;
   for (Vec3* part : {&all.told, &all.owed, &all.returned, &all.tension})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
+  Foam::reduce(all.turnover, Foam::sumOp<double>());
   return all;
 }
 

@@ -62,6 +62,7 @@ class Bridge {
   /// share of the fine cells in place of them.
   struct PressureImpulses {
     Vec3 told, owed, returned, tension;
+    double turnover = 0;  // of what went back, summed by its size in each bulk cell
   };
   PressureImpulses pressure_impulses() const;
   /// Over all ranks.

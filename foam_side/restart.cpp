@@ -57,12 +57,13 @@ json as_json(const OwedPressure::State& state) {
   const Vec3& way = state.on_its_way;
   return {{"owed", as_json(state.owed)},
           {"elsewhere", as_json(state.elsewhere)},
-          {"on_its_way", {way.x, way.y, way.z}}};
+          {"on_its_way", {way.x, way.y, way.z}},
+          {"turnover", state.turnover}};
 }
 
 OwedPressure::State owed_pressure(const json& saved) {
   return {cell_values<LeftOver::Owed>(saved.at("owed")), cell_values<Vec3>(saved.at("elsewhere")),
-          vec3(saved.at("on_its_way"))};
+          vec3(saved.at("on_its_way")), saved.at("turnover").get<double>()};
 }
 
 std::vector<double> components(const Foam::vectorField& values) {

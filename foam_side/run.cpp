@@ -204,6 +204,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.fluid.told_pressure = pressure.told;
     done.fluid.owed_pressure = pressure.owed;
     done.fluid.returned_pressure = pressure.returned;
+    done.fluid.returned_turnover = pressure.turnover;
     done.fluid.outside.surface_tension += pressure.tension;
     if (replaces) {
       done.replacement = replacement;

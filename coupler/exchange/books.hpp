@@ -27,6 +27,7 @@ struct FluidReport {
   Vec3 told_pressure;      // what the particles were given with the pressure gradient they were told, N s
   Vec3 owed_pressure;      // what its pressure left to them and they have not been given, at the window's end
   Vec3 returned_pressure;  // of that, what went back to the fluid with the explicit impulse
+  double returned_turnover = 0;  // sum over the bulk cells of its size, N s
 };
 
 class Books {
@@ -64,6 +65,7 @@ class Books {
     balance.left_over_to_particles = particles.left_over_given;
     balance.explicit_to_fluid = fluid.explicit_impulse - fluid.returned_pressure;
     balance.implicit_to_fluid = fluid.implicit_impulse;
+    balance.turnover = fluid.returned_turnover;
     unplaced_ += particles.left_over_unplaced;
     if (hands_back_left_over(scheme_))
       balance.pending = unplaced_ - fluid.implicit_impulse + fluid.kept_left_over;

@@ -36,8 +36,8 @@ struct WindowBalance {
   Vec3 drag_to_particles, left_over_to_particles;  // J, L
   Vec3 explicit_to_fluid, implicit_to_fluid;       // F_e, F_i
   Vec3 pending;                                    // P at the end of the window
-  double turnover = 0;  // sum over the bulk cells of |J|: keeps the relative error meaningful where
-                        // impulses of opposite sign cancel in the sum; 0 when not known
+  double turnover = 0;  // sum over the bulk cells of impulses that may cancel in the sums above: the
+                        // relative error is relative to this, too
   Vec3 particle_momentum, fluid_momentum;             // m_s, m_f at the end of the window
   Vec3 external;                                      // I of the window
   double gross_impulse = 0;                           // largest of its parts, N s

@@ -50,9 +50,11 @@ void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
   for (const auto& [cell, impulse] : open_) owed_[cell].impulse += impulse;
   open_.clear();
   returned_ = std::exchange(on_its_way_, Vec3{});
+  turnover_ = std::exchange(turnover_on_its_way_, 0.0);
   for (auto owed = owed_.begin(); owed != owed_.end();) {
     const BulkParticles* here = find(particles, owed->first);
-    owed->second.solid_volume = here ? here->solid_volume : HUGE_VAL;  // no particle takes a part of it
+    // Where no particle is there is none to take a part of it.
+    owed->second.solid_volume = here && here->solid_volume > 0 ? here->solid_volume : HUGE_VAL;
     owed = norm(owed->second.impulse) > 0 ? std::next(owed) : owed_.erase(owed);
   }
 }
@@ -67,6 +69,7 @@ void OwedPressure::return_to_fluid(CellValues<BulkParticles>& particles) {
     }
     particles.values[slot].drag_impulse -= back;
     on_its_way_ += back;
+    turnover_on_its_way_ += norm(back);
   };
   for (auto& [cell, owed] : owed_) {
     const BulkParticles* here = find(particles, cell);
@@ -109,13 +112,14 @@ std::map<CellId, T> as_map(const CellValues<T>& of) {
 }  // namespace
 
 OwedPressure::State OwedPressure::state() const {
-  return {as_cells(owed_), as_cells(elsewhere_), on_its_way_};
+  return {as_cells(owed_), as_cells(elsewhere_), on_its_way_, turnover_on_its_way_};
 }
 
 void OwedPressure::go_on_from(const State& state) {
   owed_ = as_map(state.owed);
   elsewhere_ = as_map(state.elsewhere);
   on_its_way_ = state.on_its_way;
+  turnover_on_its_way_ = state.turnover;
 }
 
 }  // namespace demvof

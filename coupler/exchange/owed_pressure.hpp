@@ -55,11 +55,14 @@ class OwedPressure {
   Vec3 owed_in_all() const;
   const Vec3& told() const { return told_; }
   const Vec3& returned() const { return returned_; }
+  /// Sum over the cells of the size of what was returned, N s: it may cancel.
+  double turnover() const { return turnover_; }
 
   struct State {
     CellValues<LeftOver::Owed> owed;
     CellValues<Vec3> elsewhere;  // goes back to the fluid, N s
     Vec3 on_its_way;             // went back to the fluid with the last rows, N s
+    double turnover = 0;         // of that, N s
   };
   State state() const;
   void go_on_from(const State& state);
@@ -74,6 +77,7 @@ class OwedPressure {
   std::map<CellId, Vec3> open_;       // of this window: left less told so far, N s
   std::map<CellId, Vec3> elsewhere_;  // left where they were not, N s
   Vec3 told_, returned_, on_its_way_;
+  double turnover_ = 0, turnover_on_its_way_ = 0;
 };
 
 }  // namespace demvof

@@ -59,6 +59,7 @@ class Bed {
       row.solid_volume = options_.solid_fraction * volume;
       row.drag_factor = row.drag_response = options_.drag * volume;
       row.drag_weighted_velocity = row.drag_factor * velocity();
+      row.solid_flux = row.solid_volume * velocity();
       rows.cells.push_back(cell);
       rows.values.push_back(row);
     }
