@@ -278,6 +278,7 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     }
   }
   const double dt = flow_.time.deltaTValue();
+  const double done = 1 - (flow_.clock.window_end - flow_.time.value()) / coupling_.window;
   std::vector<CellValues<OwedPressure::Left>> left;
   for (int k = 0; k < fluids; ++k) {
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
@@ -289,7 +290,12 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
       here[pieces[i].slot].impulse -= exposed * to_vec3(gradient[cell]);
       here[pieces[i].slot].exposed += exposed;
     }
-    left.push_back(cut_.cells().sum_to_owners(here));
+    CellValues<OwedPressure::Left>& cells = left.emplace_back(cut_.cells().sum_to_owners(here));
+    for (std::size_t i = 0; i < cells.cells.size(); ++i) {
+      const double* then = find(state_[k].before, cells.cells[i]);
+      const BulkParticles* now = find(state_[k].particles, cells.cells[i]);
+      cells.values[i].solid_volume = (1 - done) * (then ? *then : 0) + done * (now ? now->solid_volume : 0);
+    }
   }
   return left;
 }

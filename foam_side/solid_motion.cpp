@@ -10,8 +10,13 @@
 //
 //   s = mean(psi) v.S - M grad(q).S,   M = mean(psi) |v.n|,   div(M grad q) = div(mean(psi) v) - d(eps)/dt
 //
-// Where nothing moves M is 0: a void fraction that changes without (particles that are put in, or that a
-// surface shares out anew) is no motion, and stays out of it.
+// Where nothing moves M is 0. A void fraction that changes otherwise (particles that are put in, or that a
+// surface shares out anew) is no motion, and must not be taken for one: what goes through a face is limited
+// to
+//
+//   0 <= s <= 2 max(psi of both sides) v.S      2: an edge may lie within the cell
+
+#include <algorithm>
 
 #include "foam_side/flow.hpp"
 #include "gaussLaplacianScheme.H"
@@ -55,6 +60,25 @@ tmp<surfaceScalarField> missed_by_means(Flow& flow, const surfaceScalarField& so
   return equation.flux();
 }
 
+/// Keeps s between nothing and twice what the denser side of each face would carry through it.
+void limit(surfaceScalarField& solid_flux, const surfaceScalarField& along, const volScalarField& solid) {
+  const auto limited = [](scalar flux, scalar along_face, scalar one, scalar other) {
+    const scalar most = 2 * std::max(one, other) * along_face;
+    return std::clamp(flux, std::min(most, 0.0), std::max(most, 0.0));
+  };
+  const Foam::labelUList &owner = solid.mesh().owner(), &neighbour = solid.mesh().neighbour();
+  forAll(neighbour, face) solid_flux[face] =
+      limited(solid_flux[face], along[face], solid[owner[face]], solid[neighbour[face]]);
+  forAll(solid_flux.boundaryField(), patch) {
+    if (!solid.boundaryField()[patch].coupled()) continue;
+    auto& flux = solid_flux.boundaryFieldRef()[patch];
+    const scalarField here(solid.boundaryField()[patch].patchInternalField());
+    const scalarField there(solid.boundaryField()[patch].patchNeighbourField());
+    forAll(flux, face) flux[face] =
+        limited(flux[face], along.boundaryField()[patch][face], here[face], there[face]);
+  }
+}
+
 }  // namespace
 
 void set_solid_velocity(Flow& flow, const Foam::vectorField& velocity) {
@@ -81,8 +105,10 @@ bool follow_solid(Flow& flow, bool at_start) {
   const surfaceScalarField eps_f(face_void_fraction(porosity.eps));
   porosity.carried = eps_f * porosity.along;
   if (at_start || !moves) return true;
-  const surfaceScalarField solid_flux(porosity.along - porosity.carried);
-  porosity.carried += missed_by_means(flow, solid_flux, solid_f);
+  surfaceScalarField solid_flux(porosity.along - porosity.carried);
+  solid_flux -= missed_by_means(flow, solid_flux, solid_f);
+  limit(solid_flux, porosity.along, solid);
+  porosity.carried = porosity.along - solid_flux;
   return true;
 }
 

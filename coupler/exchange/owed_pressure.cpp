@@ -35,14 +35,17 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
 void OwedPressure::collect(const CellValues<Left>& left, double step) {
   for (std::size_t i = 0; i < left.cells.size(); ++i) {
     const CellId cell = left.cells[i];
-    const auto& [impulse, exposed] = left.values[i];
-    Vec3 as_told;
-    if (const auto heard = heard_.find(cell); heard != heard_.end()) {
-      const double volume = heard->second.solid_volume;
-      as_told = exposed > 0 ? volume * step / exposed * impulse : -(volume * step) * heard->second.gradient;
-      open_[cell] += as_told;
-    }
-    if (norm(impulse - as_told) > 0) elsewhere_[cell] += impulse - as_told;
+    const auto& [impulse, exposed, solid_volume] = left.values[i];
+    const auto heard = heard_.find(cell);
+    const double moved =
+        solid_volume - (heard == heard_.end() ? 0 : heard->second.solid_volume);  // V_e - V_s
+    Vec3 not_theirs;
+    if (exposed > 0)
+      not_theirs = moved * step / exposed * impulse;
+    else if (heard != heard_.end())
+      not_theirs = -moved * step * heard->second.gradient;
+    if (norm(not_theirs) > 0) elsewhere_[cell] += not_theirs;
+    if (norm(impulse - not_theirs) > 0) open_[cell] += impulse - not_theirs;
   }
 }
 

@@ -4,15 +4,19 @@
 // Momentum of the pressure, between a fluid that knows it when the window is done and particles that are told
 // of it when it begins.
 //
-//   O += (V_s/V_e) left - told    left  what the fluid's equation left to the particles of a bulk cell in the
-//                                       window, -sum of dt (1 - eps) V grad p, N s
-//                                 told  what they were given, -V_s grad p_told dt_w
-//                                 V_e   sum of dt (1 - eps) V/dt_w
+//   O += left + g (V_e - V_s) dt_w - told
+//
+//     left  what the fluid's equation left to the particles of a bulk cell in the window, -sum of dt (1 -
+//     eps) V
+//           grad p, N s;  g: over the sum of dt (1 - eps) V, the mean gradient
+//     told  what they were given, -V_s grad p_told dt_w, V_s: their volume when it was told
+//     V_e   mean of V_s over the fluid's steps, by the void fraction that moves on in the window
+//
 //   grad p_told = grad p - eta O/(V_s dt_w),   eta = omega/2
 //
-// The particles are given the pressure of where they were when it was told, V_s; the void fraction moves on
-// in the window, V_e. (1 - V_s/V_e) left was left where they were not, and the fluid of the cell gets it
-// back: owed to those who come there, it would pull a single sphere back by 1 % of its weight.
+// The particles are given the pressure of where they were when it was told. -g (V_e - V_s) dt_w was left
+// where they were not, and the fluid of the cell gets it back: owed to those who come there, it would pull a
+// single sphere back by 1 % of its weight.
 //
 // So what one side loses the other gets, a window or some later. grad p is relaxed (relaxation.hpp) with
 // omega where fluid and particles push each other about; returned faster than that the difference would undo
@@ -37,8 +41,9 @@ class OwedPressure {
 
   /// What the fluid's equation left to the particles of a cell in a part of the window.
   struct Left {
-    Vec3 impulse;        // N s
-    double exposed = 0;  // solid volume times time, m3 s
+    Vec3 impulse;             // N s
+    double exposed = 0;       // sum of dt (1 - eps) V, m3 s
+    double solid_volume = 0;  // V_e of that part, m3
   };
   /// step: of the fluid, s.
   void collect(const CellValues<Left>& left, double step);

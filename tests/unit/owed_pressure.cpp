@@ -38,8 +38,8 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
     EXPECT_NEAR(owed.told().z, -2 * window * told.values[0].pressure_gradient.z, 1e-14);
     const double lost = n == 0 ? 7 : 4;  // the first window's pressure was another one
     left += lost;
-    owed.collect({{3}, {{{0, 0, 0.25 * lost}, 2 * 0.25 * window}}}, 0.25 * window);
-    owed.collect({{3}, {{{0, 0, 0.75 * lost}, 2 * 0.75 * window}}}, 0.75 * window);
+    owed.collect({{3}, {{{0, 0, 0.25 * lost}, 2 * 0.25 * window, 2}}}, 0.25 * window);
+    owed.collect({{3}, {{{0, 0, 0.75 * lost}, 2 * 0.75 * window, 2}}}, 0.75 * window);
     owed.end_window(particles(2));
     EXPECT_NEAR(owed.owed_in_all().z, left - given, 1e-13);
   }
@@ -50,7 +50,7 @@ TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   OwedPressure owed;
   CellValues<BulkFluid> told = fluid(0);
   owed.tell(told, {1, 1}, particles(2), window);
-  owed.collect({{3}, {{{0, 0, 8}, 2 * window}}}, window);
+  owed.collect({{3}, {{{0, 0, 8}, 2 * window, 2}}}, window);
   owed.end_window(particles(2));
   CellValues<BulkParticles> fewer = particles(0.5);
   owed.return_to_fluid(fewer);
@@ -77,7 +77,9 @@ TEST(OwedPressure, OwesNothingForTheWayOfTheParticles) {
   owed.tell(told, {1, 1}, particles(2), window);
   for (const double there : {0.25, 1.0}) {  // after two steps, of which the second ends with nobody in cell 3
     const double step = 0.5 * window, exposed = 2 * step * (1 - there), other = 2 * step * there;
-    owed.collect({{3, 5}, {{{0, 0, -gradient * exposed}, exposed}, {{0, 0, -gradient * other}, other}}},
+    owed.collect({{3, 5},
+                  {{{0, 0, -gradient * exposed}, exposed, exposed / step},
+                   {{0, 0, -gradient * other}, other, other / step}}},
                  step);
   }
   CellValues<BulkParticles> moved{{5}, std::vector<BulkParticles>(1)};
@@ -108,7 +110,7 @@ TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
       owed.tell(told, {omega, omega}, particles(2), window);
       last = told.values[0].pressure_gradient.z;
       pressure = -2 - mu * last;
-      owed.collect({{3}, {{{0, 0, -2 * window * pressure}, 2 * window}}}, window);
+      owed.collect({{3}, {{{0, 0, -2 * window * pressure}, 2 * window, 2}}}, window);
       owed.end_window(particles(2));
     }
     EXPECT_NEAR(last, -2 / (1 + mu), 1e-9) << mu;

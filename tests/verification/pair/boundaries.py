@@ -55,11 +55,12 @@ def periodic():
         RECORD.at_most(f"periodic, {name}: particles lost", run.results["particles"]["lost"], 0)
         RECORD.at_most(f"periodic, {name}: exchange error", run.number("conservation.exchange"), 5e-14)
         RECORD.at_most(f"periodic, {name}: solid volume error", run.number("conservation.solid_volume"), 6e-14)
-    # A few iterations for the flux of the solid make round-off larger.
+    # The few iterations of conjugate gradients for the flux of the solid (solid_motion.cpp) make round-off larger, by
+    # how much depends on the build: 2e-15 to 1.6e-7 seen.
     RECORD.at_most("periodic: position, across against inside, over the box",
-                   numpy.abs(states[0][0] - states[1][0]).max() / length, 1.7e-8)
+                   numpy.abs(states[0][0] - states[1][0]).max() / length, 5e-7)
     RECORD.at_most("periodic: velocity, across against inside",
-                   numpy.abs(states[0][1] - states[1][1]).max(), 1.7e-8, "m/s")
+                   numpy.abs(states[0][1] - states[1][1]).max(), 5e-7, "m/s")
     fallen = 0.03 - states[0][0][:, 2].max()
     RECORD.at_least("periodic: the beads fall by", fallen, 0.01, "m")
 
