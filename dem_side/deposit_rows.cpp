@@ -45,7 +45,8 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
       const double push = (1 + parameters_.added_mass) * sphere_volume(radius) / inertia;
       here.pressure_mobility = theta * here.solid_volume * push;
       here.following_volume = (1 - theta) * here.solid_volume;
-      here.following_response = (1 - theta) * drag_response(tangent, mass, window_, 0, added, other);
+      here.free_response = drag_response(tangent, mass, window_, 0, added, other);
+      here.following_response = (1 - theta) * here.free_response;
     }
     here.drag_impulse = fluid.drag_impulse;
     here.drag_factor = beta;
@@ -73,7 +74,7 @@ std::vector<BulkParticles> FluidForces::expected_contributions(int k) const {
         drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
                       held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
     expected[i].drag_impulse = {};
-    expected[i].following_response = 0;  // u_ref is to be this one in all of the cell
+    expected[i].free_response = expected[i].following_response = 0;  // u_ref is to be this one everywhere
     expected[i].response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
   }
   return expected;

@@ -9,7 +9,13 @@
 //
 //   F_b = -J/dt + C (u_ref - (u_told - u_mean) - u)
 //
-// and a steady state is still not shifted by it. Impulses are exchanged by pieces with every mapping.
+// and a steady state is still not shifted by it. In the fine cells of a bulk cell u_ref has a shape of mean
+// 0,
+//
+//   lambda (u_f - u_b) + (1 - lambda) grad v . (x_f - X_b)
+//
+// u: of the window's start, lambda: momentum_exchange.hpp, v: velocity of the solid. Impulses are exchanged
+// by pieces with every mapping.
 
 #include "foam_side/particles_to_fine.hpp"
 
@@ -160,12 +166,41 @@ scalarField ParticlesToFine::solid_fraction_of(const Vec3& position, double volu
   return result;
 }
 
-Foam::vectorField ParticlesToFine::solid_flux_density() const {
-  std::vector<Vec3> totals(cut_.cells().cells().size());
+/// Volume and flux of the solid of each touched cell, of all fluids.
+std::vector<ParticlesToFine::Solid> ParticlesToFine::solid() const {
+  std::vector<Solid> all(cut_.cells().cells().size());
   for (const std::vector<BulkParticles>& touched : touched_)
-    for (std::size_t slot = 0; slot < totals.size(); ++slot) totals[slot] += touched[slot].solid_flux;
-  std::vector<double> rows(3 * totals.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = totals[i / 3][static_cast<int>(i % 3)];
+    for (std::size_t slot = 0; slot < all.size(); ++slot) {
+      all[slot].volume += touched[slot].solid_volume;
+      all[slot].flux += touched[slot].solid_flux;
+    }
+  return all;
+}
+
+/// Per piece of the cut, m/s: how much faster than in all of their bulk cell the particles are there.
+std::vector<Vec3> ParticlesToFine::own_shape() const {
+  const std::vector<Solid> solids = solid();
+  constexpr int width = 4;  // 1 where there are particles; v
+  std::vector<double> rows;
+  for (const Solid& cell : solids) {
+    const Vec3 v = cell.volume > 0 ? cell.flux / cell.volume : Vec3{};
+    rows.insert(rows.end(), {cell.volume > 0 ? 1.0 : 0.0, v.x, v.y, v.z});
+  }
+  const std::vector<double> rise = cut_.remap().rises(cut_.pieces(), rows, width);
+  std::vector<Vec3> shape;
+  for (std::size_t i = 0; i < rise.size(); i += width) {
+    const std::size_t cell = std::size_t(cut_.pieces()[i / width].slot) * width;
+    Vec3& here = shape.emplace_back();  // neighbours without particles do not count
+    for (int axis = 0; axis < 3 && rows[cell] > 0; ++axis)
+      here[axis] = rise[i + 1 + axis] - rise[i] * rows[cell + 1 + axis];
+  }
+  return shape;
+}
+
+Foam::vectorField ParticlesToFine::solid_flux_density() const {
+  const std::vector<Solid> solids = solid();
+  std::vector<double> rows;
+  for (const Solid& cell : solids) rows.insert(rows.end(), {cell.flux.x, cell.flux.y, cell.flux.z});
   const std::vector<double> density = cut_.remap().to_fine(rows, 3);
   Foam::vectorField result(flow_.mesh.nCells());
   forAll(result, cell) result[cell] = {density[3 * cell], density[3 * cell + 1], density[3 * cell + 2]};
@@ -194,26 +229,35 @@ void ParticlesToFine::spread_sources() {
   const auto& volume = flow_.mesh.V();
   surface_.look();
   const SharingWeights weights(flow_, surface_, cut_, coupling_.sharing);
+  const bool changes = hands_back();  // the implicit part is for what changes
+  const std::vector<Vec3> own_shapes = changes ? own_shape() : std::vector<Vec3>();
   for (int k = 0; k < surface_.fluids(); ++k) {
-    // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
-    // it; of w V u for fluid k.
-    struct Totals {
-      double own = 0, all = 0;
-      Vec3 velocity;
-    };
-    std::vector<Totals> total(touched_[k].size());
-    for (const Piece& piece : pieces) {
-      const double own = weights.of(k, piece).force;
-      total[piece.slot].own += own;
-      total[piece.slot].velocity += own * to_vec3(flow_.U[piece.fine]);
-      total[piece.slot].all += weights.of_any(piece);
-    }
-    total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
     std::vector<FluidSource> sources(touched_[k].size());
     for (std::size_t slot = 0; slot < sources.size(); ++slot) {
       sources[slot] = fluid_source(coupling_.exchange, touched_[k][slot], coupling_.window);
       if (cut_.shifts_velocity()) sources[slot].reference_velocity -= felt_shift_here_[k][slot];
     }
+    // What the particles of a bulk cell have of their own in its fine cells.
+    const auto shape = [&](std::size_t i) {
+      if (!changes) return Vec3{};
+      const double following = sources[pieces[i].slot].following;
+      return following * to_vec3(flow_.U[pieces[i].fine]) + (1 - following) * own_shapes[i];
+    };
+    // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
+    // it; of w V times the shape for fluid k.
+    struct Totals {
+      double own = 0, all = 0;
+      Vec3 shape;
+    };
+    std::vector<Totals> total(touched_[k].size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Piece& piece = pieces[i];
+      const double own = weights.of(k, piece).force;
+      total[piece.slot].own += own;
+      total[piece.slot].shape += own * shape(i);
+      total[piece.slot].all += weights.of_any(piece);
+    }
+    total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Piece& piece = pieces[i];
       const FluidSource& bulk = sources[piece.slot];
@@ -225,7 +269,7 @@ void ParticlesToFine::spread_sources() {
       source.force[piece.fine] += share * to_foam(bulk.explicit_force);
       source.coefficient[piece.fine] += coefficient_part_[k][i];
       Vec3 reference = bulk.reference_velocity;
-      if (sum.own > 0) reference += bulk.following * (to_vec3(flow_.U[piece.fine]) - sum.velocity / sum.own);
+      if (sum.own > 0) reference += shape(i) - sum.shape / sum.own;
       source.reference[piece.fine] += coefficient_part_[k][i] * to_foam(reference);
     }
   }

@@ -90,6 +90,13 @@ class ParticlesToFine {
   void go_on_from(std::vector<InFluid> state);
 
  private:
+  /// Volume, m3, and flux, m4/s, of solid.
+  struct Solid {
+    double volume = 0;
+    Vec3 flux;
+  };
+  std::vector<Solid> solid() const;
+  std::vector<Vec3> own_shape() const;
   void distribute();
   std::vector<double> solid_fraction(const std::vector<std::vector<double>>& volumes);
 

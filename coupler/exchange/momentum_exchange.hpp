@@ -17,9 +17,10 @@
 //
 // With conservative_implicit what the implicit part gave the fluid is owed to the particles:
 // M = C (u - u_ref) dt, handed over in the next window.
-// In a fine cell f of the bulk cell C (u_ref + lambda (u_f0 - u_0) - u_f) acts, u_f0 its velocity at the
-// start of the window and u_0 their mean: particles that follow the fluid do so where they are, and do not
-// pull it towards the mean of the bulk cell; those that do not, or are held, do.
+// In the fine cells of the bulk cell u_ref has a shape of mean 0 (foam_side/particles_to_fine.cpp): lambda of
+// the fluid's own at the start of the window, 1 - lambda of the particles'. Particles that follow the fluid
+// do so where they are, and do not pull it towards the mean of the bulk cell; those that do not pull it
+// towards theirs.
 //
 // Sources: Pozzetti & Peters 2017 (semi-implicit, after Xiao & Sun 2011); the conservative scheme
 // is this project's own, docs/theory.md.
@@ -31,7 +32,11 @@
 
 namespace demvof {
 
-/// lambda, -: of the response of a bulk cell's particles, the share of those that go with the fluid.
+/// Of the response of a bulk cell's particles, the shares (-) of those that nothing holds, and of those that
+/// go with the fluid within the window (lambda).
+inline double free_share(const BulkParticles& particles) {
+  return particles.drag_response > 0 ? std::min(1.0, particles.free_response / particles.drag_response) : 0;
+}
 inline double following_share(const BulkParticles& particles) {
   return particles.drag_response > 0 ? std::min(1.0, particles.following_response / particles.drag_response)
                                      : 0;

@@ -63,7 +63,7 @@ void ToldFluid::refer_to_own_cell(CellValues<BulkParticles>& particles) const {
     if (!told) continue;
     BulkParticles& cell = particles.values[i];
     Vec3& reference = cell.response_weighted_velocity;
-    reference += following_share(cell) * (cell.drag_response * told->velocity - reference);
+    reference += free_share(cell) * (cell.drag_response * told->velocity - reference);
   }
 }
 

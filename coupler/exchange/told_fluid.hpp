@@ -29,9 +29,9 @@ class ToldFluid {
   /// The acceleration, after that, with the factors of the same cells.
   void relax(CellValues<BulkFluidGradients>& gradients);
 
-  /// Particles that go with the fluid feel the mean of several cells, and that is no reason for the fluid of
-  /// each to go there: of their share in the response, the reference is what their own cell was told.
-  /// particles: that have felt what was told last.
+  /// Particles feel the mean of several cells, and are free to go with it: no reason for the fluid of each
+  /// cell to go there. Of the share in the response that nothing holds, the reference is what their own cell
+  /// was told. particles: that have felt what was told last.
   void refer_to_own_cell(CellValues<BulkParticles>& particles) const;
 
   /// omega of the cells that were told last.

@@ -54,7 +54,8 @@ struct BulkParticles {
   Vec3 response_weighted_velocity;  // sum w beta_eff u_felt (fluid velocity each particle felt), N
   double pressure_mobility = 0;     // sum w theta V^2/m of those that forces move, m6/kg (relaxation.hpp)
   double following_volume = 0;      // sum w (1 - theta) V of these, m3
-  double following_response = 0;    // sum w (1 - theta) beta_eff of these, as if no contact held them, kg/s
+  double free_response = 0;         // sum w beta_eff of these, as if no contact held them, kg/s
+  double following_response = 0;    // sum w (1 - theta) beta_eff of these, likewise, kg/s
   Vec3 solid_flux;                  // sum w V (mean velocity in the window), m4/s
 };
 

@@ -89,6 +89,22 @@ void LimitedSlopes::fit_gradient(Surroundings& cell, const std::array<Vec3, 6>& 
   }
 }
 
+Vec3 LimitedSlopes::gradient(const Surroundings& cell, const std::vector<double>& means, int width, int m) {
+  const double mean = means[std::size_t(cell.slot) * width + m];
+  Vec3 slope;
+  for (int face = 0; face < 6; ++face)
+    if (cell.face[face] >= 0)
+      slope += cell.gradient[face] * (means[std::size_t(cell.face[face]) * width + m] - mean);
+  return slope;
+}
+
+std::vector<Vec3> LimitedSlopes::gradients(const std::vector<double>& means, int width) const {
+  std::vector<Vec3> slopes;
+  for (const Surroundings& cell : cells_)
+    for (int m = 0; m < width; ++m) slopes.push_back(gradient(cell, means, width, m));
+  return slopes;
+}
+
 std::vector<Vec3> LimitedSlopes::evaluate(const std::vector<double>& means, int width) const {
   std::vector<Vec3> slopes(cells_.size() * width);
   std::vector<double> lowest(width), highest(width);
@@ -107,9 +123,7 @@ std::vector<Vec3> LimitedSlopes::evaluate(const std::vector<double>& means, int 
     for (int m = 0; m < width; ++m) {
       Vec3& slope = slopes[c * width + m];
       if (lowest[m] == mean[m] || highest[m] == mean[m]) continue;  // an extremum, or even: stays flat
-      for (int face = 0; face < 6; ++face)
-        if (cell.face[face] >= 0)
-          slope += cell.gradient[face] * (means[std::size_t(cell.face[face]) * width + m] - mean[m]);
+      slope = gradient(cell, means, width, m);
       const double rise = largest_rise(slope, cell.to_lower, cell.to_upper);
       const double fall = largest_rise(-slope, cell.to_lower, cell.to_upper);
       const double room_above = highest[m] - mean[m], room_below = mean[m] - lowest[m];

@@ -32,6 +32,8 @@ class LimitedSlopes {
 
   /// means: cells x width, a value of 0 where there is no fluid. Returns phi g: where x width.
   std::vector<Vec3> evaluate(const std::vector<double>& means, int width) const;
+  /// g alone, not limited.
+  std::vector<Vec3> gradients(const std::vector<double>& means, int width) const;
 
  private:
   struct Surroundings {
@@ -42,6 +44,7 @@ class LimitedSlopes {
     int count = 0;
     Vec3 to_lower, to_upper;  // from X_c to the corners of the cell's box, m
   };
+  static Vec3 gradient(const Surroundings& cell, const std::vector<double>& means, int width, int m);
   static void fit_gradient(Surroundings& cell, const std::array<Vec3, 6>& distance);
   std::vector<Surroundings> cells_;
 };

@@ -129,6 +129,20 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width,
   return fine;
 }
 
+std::vector<double> Remap::rises(const std::vector<Piece>& pieces, const std::vector<double>& means,
+                                 int width) const {
+  const std::vector<Vec3> slopes = slopes_.gradients(means, width);
+  std::vector<double> rise(pieces.size() * width, 0.0);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    if (slope_of_[piece.slot] < 0) continue;
+    const Vec3* slope = &slopes[std::size_t(slope_of_[piece.slot]) * width];
+    for (int m = 0; m < width; ++m)
+      rise[i * width + m] = dot(slope[m], piece.centroid - bulk_centroid_[piece.slot]);
+  }
+  return rise;
+}
+
 std::vector<double> Remap::partial_sums(const std::vector<double>& fine, int width,
                                         const std::vector<double>& weight,
                                         const std::vector<Vec3>& gradient) const {

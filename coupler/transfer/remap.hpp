@@ -49,6 +49,12 @@ class Remap {
   std::vector<double> to_fine(const std::vector<double>& totals, int width,
                               const std::vector<char>& flat = {}) const;
 
+  /// Of fields on the bulk cells (slots x width), how much each of some pieces is above its bulk cell's mean
+  /// (pieces x width) by the mean slope of the cells around, not limited. 0 where a bulk cell is a single
+  /// piece, and with other mappings than conservative.
+  std::vector<double> rises(const std::vector<Piece>& pieces, const std::vector<double>& means,
+                            int width) const;
+
   /// This rank's part of sum over pieces of volume * weight_fine * value_piece, per touched bulk cell
   /// (cells x width). The caller sums over ranks with cells().sum_to_owners.
   ///   value_piece = value_fine + gradient_fine . offset of the piece

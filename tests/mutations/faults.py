@@ -14,6 +14,10 @@ FORCES = {r"^mock_dem_forces\..*\.1$": ["mock_dem_forces"], "^mock_dem_settling.
 START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}
 SETTLING = {"^pair.batch_settling$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
+PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
+SHEAR, POURED, CARRIED, STREWN, DUST = ({f"^pair.{name}$": PAIR} for name in
+                                  ("suspension_viscosity", "particle_injection", "carried", "extremes", "oscillating_flow"))
+OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_told_fluid$": ["unit_told_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
 FAULTS = [
@@ -56,6 +60,13 @@ FAULTS = [
      "outside.held = particles.held_impulse", EXCHANGE),
     ("coupler/exchange/support.hpp", "counts_as_held * norm(cell.contact) / asked",
      "counts_as_held * asked / norm(cell.contact)", FORCES),
+    ("coupler/exchange/told_fluid.cpp", "reference += free_share(cell) *",
+     "reference -= free_share(cell) *", {**OWED, **SHEAR}),
+    ("coupler/exchange/owed_pressure.cpp", "not_theirs = moved * step / exposed * impulse;",
+     "not_theirs = {};", OWED),
+    ("coupler/exchange/owed_pressure.cpp", "gradient -= part / (here->solid_volume * window);",
+     "gradient += part / (here->solid_volume * window);", OWED),
+    ("coupler/exchange/owed_pressure.cpp", "owed.impulse -= back;", "", OWED),
     # ---- transfer
     ("coupler/transfer/axis_kernel.cpp", "add(first, 1.0 - upper_share);", "add(first, upper_share);", AVERAGING),
     ("coupler/transfer/axis_kernel.cpp", "m < count_ ? m : period - 1 - m", "m < count_ ? m : period - m", AVERAGING),
@@ -95,7 +106,17 @@ FAULTS = [
     ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
      "store(external[i], given + steady);", FORCES),
     ("dem_side/forces.cpp", "if (half_step_ && !moves) {", "if (half_step_ && moves && !moves) {", START),
+    ("dem_side/deposit_rows.cpp", "std::exchange(row.fluid[k].drag_impulse, {})", "Vec3{}", STREWN),
+    ("dem_side/deposit_rows.cpp", "here.following_response = (1 - theta) *", "here.following_response = theta *", SHEAR),
     # ---- between fine mesh and bulk grid
+    ("foam_side/particles_to_fine.cpp", "reference += shape(i) - sum.shape / sum.own;",
+     "reference += sum.shape / sum.own - shape(i);", SHEAR),
+    ("foam_side/particles_to_fine.cpp", "rise[i + 1 + axis] - rise[i] * rows[cell + 1 + axis]",
+     "rise[i] * rows[cell + 1 + axis] - rise[i + 1 + axis]", DUST),
+    ("foam_side/solid_motion.cpp", "2 * std::max(one, other) * along_face", "1000 * std::max(one, other) * along_face",
+     POURED),
+    ("foam_side/solid_motion.cpp", "return porosity.along + (flux - porosity.carried)",
+     "return porosity.along + (flux + porosity.carried)", CARRIED),
     ("foam_side/run.cpp", "return end + (end - before);", "return end + 0 * (end - before);", SETTLING),
     ("foam_side/run.cpp", "flow.porosity->goal.field() = goal;", "", DROP),
     ("foam_side/bridge.cpp", "left_over_[k].collect({{cell}, {-impulse}}, particles);",
