@@ -15,8 +15,8 @@ START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}
 SETTLING = {"^pair.batch_settling$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
-SHEAR, POURED, CARRIED, STREWN, DUST = ({f"^pair.{name}$": PAIR} for name in
-                                  ("suspension_viscosity", "particle_injection", "carried", "extremes", "oscillating_flow"))
+SHEAR, POURED, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
+                                  ("suspension_viscosity", "particle_injection", "carried", "extremes"))
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_told_fluid$": ["unit_told_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
@@ -112,7 +112,7 @@ FAULTS = [
     ("foam_side/particles_to_fine.cpp", "reference += shape(i) - sum.shape / sum.own;",
      "reference += sum.shape / sum.own - shape(i);", SHEAR),
     ("foam_side/particles_to_fine.cpp", "rise[i + 1 + axis] - rise[i] * rows[cell + 1 + axis]",
-     "rise[i] * rows[cell + 1 + axis] - rise[i + 1 + axis]", DUST),
+     "rise[i] * rows[cell + 1 + axis] - rise[i + 1 + axis]", SHEAR),
     ("foam_side/solid_motion.cpp", "2 * std::max(one, other) * along_face", "1000 * std::max(one, other) * along_face",
      POURED),
     ("foam_side/solid_motion.cpp", "return porosity.along + (flux - porosity.carried)",
