@@ -9,7 +9,7 @@ EXCHANGE = {f"^unit_{name}$": [f"unit_{name}"] for name in ("exchange_stability"
                                                             "ledger", "books", "crossing")}
 AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_test.2$": ["limit_solid_test"],
              "^unit_kernel_weights$": ["unit_kernel_weights"]}
-MAPPING = {"^unit_pieces$": ["unit_pieces"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
+MAPPING = {"^unit_mesh_cut$": ["unit_mesh_cut"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
 FORCES = {r"^mock_dem_forces\..*\.1$": ["mock_dem_forces"], "^mock_dem_settling.1$": ["dem_side", "mock_fluid"]}
 START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}
 SETTLING = {"^pair.batch_settling$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
