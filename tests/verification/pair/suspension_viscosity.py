@@ -101,17 +101,21 @@ def main():
         record.at_most(f"{law}: rate over the law's", abs(rate / decay(FINE, WINDOW, expected) - 1), 0.003)
     settings = [("gaussian", 5e-4, "staggered"), ("gaussian", 5e-4, "concurrent"), ("volume", 5e-4, "staggered")]
     if command_line().long:
-        settings += [(kernel, window, schedule) for kernel in ("gaussian", "linear", "volume", "centre", "diffusion")
-                     for window in (1.25e-4, 5e-4, 2e-3) for schedule in ("staggered", "concurrent")]
+        settings = [(kernel, window, schedule) for kernel in ("gaussian", "linear", "volume", "centre", "diffusion")
+                    for window in (1.25e-4, 5e-4, 2e-3) for schedule in ("staggered", "concurrent")]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         found = list(pool.map(lambda setting: decay_rate(
             demvof, "_".join(map(str, setting)), spheres(), "none", setting[1],
             {"averaging": {"kernel": setting[0]}, "schedule": setting[2]}), settings))
-    added = []
+    added = {}
     for (kernel, window, schedule), rate in zip(settings, found):
-        added.append(rate / decay(FINE, window, 1 - FRACTION) - 1)
-        print(f"{kernel}, window {window} s, {schedule}: viscosity added by the exchange {added[-1]:.2e}")
-    record.at_most("viscosity added by the exchange, over the liquid's, worst", max(map(abs, added)), 0.0027)
+        error = rate / decay(FINE, window, 1 - FRACTION) - 1
+        print(f"{kernel}, window {window} s, {schedule}: viscosity added by the exchange {error:.2e}")
+        added.setdefault(window, []).append(abs(error))
+    # In windows of five response times a fifth of the response is not by particles that follow.
+    bounds = {1.25e-4: 0.05, 5e-4: 0.0027, 2e-3: 0.0075}
+    for window, errors in sorted(added.items()):
+        record.at_most(f"viscosity added by the exchange, over the liquid's, windows of {window:g} s", max(errors), bounds[window])
     dust = {(1, 0.2, 20, 1, "centre"): 0.008, (1, 0.2, 5, 4, "centre"): 0.05, (1, 0.2, 10, 2, "gaussian"): 0.045}
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         decays = list(pool.map(lambda setting: dust_decay(demvof, "dust_" + "_".join(map(str, setting)), *setting), dust))
