@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
   using namespace demvof;
   const ProgramOptions options =
       read_program_options("dem_side", "Particle (DEM) side of a DEM-VOF pair.", argc, argv);
-  OwnWorld world(argc, argv, Side::particles, start_patience(options), options.out);
+  OwnWorld world(argc, argv, Side::particles, start_limit_seconds(options), options.out);
   return guarded_main(world, [&] { return run_particles(options, world); });
 }

@@ -18,6 +18,7 @@
 #include "coupler/output/run_lock.hpp"
 #include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
+#include "dem_side/fallback_results.hpp"
 #include "dem_side/forces.hpp"
 #include "dem_side/output.hpp"
 #include "dem_side/particle_grid.hpp"
@@ -25,7 +26,6 @@
 #include "dem_side/report.hpp"
 #include "dem_side/restart.hpp"
 #include "dem_side/size_mix.hpp"
-#include "dem_side/survivor.hpp"
 #include "dem_side/window_steps.hpp"
 
 namespace demvof {
@@ -87,7 +87,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     start = open_state(options, parameters, world);
     if (world.rank() == 0) keep_earlier(options.out, "particles.log");
   }
-  Survivor survivor(options, parameters, world);
+  FallbackResults fallback_results(options, parameters, world);
 
   run_stage().set("particle script");
   Dem dem(world.comm(), script, options.out / "particles.log",
@@ -150,7 +150,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   };
   const std::vector<CellValues<BulkParticles>> deposited = deposit();
   Report report(dem);
-  survivor.start(report.count());
+  fallback_results.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
   if (!start) output.write(0, coupling.window, forces, averaging, {});
   WallSeconds seconds;
@@ -205,7 +205,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     link.close_window(report.window(forces, averaging, replaced_volume, seconds));
 
     const long done_here = link.number() - plan.windows_before;
-    survivor.window(done_here, done_here * steps, report.count(), seconds.dem, seconds.waiting);
+    fallback_results.window(done_here, done_here * steps, report.count(), seconds.dem, seconds.waiting);
     if (!link.writes()) continue;
     run_stage().set("output", time);
     output.write(time, coupling.window, forces, averaging, fluid.means);

@@ -37,7 +37,7 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
       fluid_to_bulk_(flow, cut_, surface_, parameters.forces, parameters.coupling.sharing),
       particles_to_fine_(flow, cut_, surface_, parameters.coupling),
       left_over_(surface_.fluids()),
-      told_(surface_.fluids(), ToldFluid({parameters.coupling.schedule, parameters.coupling.exchange,
+      seen_(surface_.fluids(), SeenFluid({parameters.coupling.schedule, parameters.coupling.exchange,
                                           parameters.coupling.window, flow.porosity != nullptr})),
       owed_pressure_(surface_.fluids()),
       shift_(surface_.fluids()) {}
@@ -51,7 +51,7 @@ void Bridge::remap() {
 
 void Bridge::take(std::vector<CellValues<BulkParticles>> particles) {
   for (std::size_t k = 0; k < particles.size(); ++k) {
-    told_[k].refer_to_own_cell(particles[k]);
+    seen_[k].refer_to_own_cell(particles[k]);
     left_over_[k].return_to_fluid(particles[k]);
     owed_pressure_[k].return_to_fluid(particles[k]);
   }
@@ -105,14 +105,14 @@ void Bridge::collect_pressure() {
 Bridge::PressureImpulses Bridge::pressure_impulses() const {
   PressureImpulses all;
   for (const OwedPressure& fluid : owed_pressure_) {
-    all.told += fluid.told();
+    all.seen += fluid.seen();
     all.owed += fluid.owed_in_all();
     all.returned += fluid.returned();
     all.turnover += fluid.turnover();
   }
   all.tension = tension_;
-  all.told += unclaimed_;
-  for (Vec3* part : {&all.told, &all.owed, &all.returned, &all.tension})
+  all.seen += unclaimed_;
+  for (Vec3* part : {&all.seen, &all.owed, &all.returned, &all.tension})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   Foam::reduce(all.turnover, Foam::sumOp<double>());
   return all;
@@ -135,9 +135,9 @@ std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
   for (FluidToBulk::Means& means : fluid_to_bulk_.means()) {
     shift_[k] = {means.fluid.cells, std::move(means.shift)};
     left_over_[k].hand_over(means.fluid);
-    told_[k].relax(means.fluid, means.fluid_volume, particles_to_fine_.particles(k));
+    seen_[k].relax(means.fluid, means.fluid_volume, particles_to_fine_.particles(k));
     if (owes_pressure_)
-      owed_pressure_[k].tell(means.fluid, told_[k].factors(), particles_to_fine_.particles(k), window_);
+      owed_pressure_[k].tell(means.fluid, seen_[k].factors(), particles_to_fine_.particles(k), window_);
     fluids.push_back(std::move(means.fluid));
     ++k;
   }
@@ -146,7 +146,7 @@ std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
 
 std::vector<CellValues<BulkFluidGradients>> Bridge::bulk_fluid_gradients() {
   std::vector<CellValues<BulkFluidGradients>> gradients = fluid_to_bulk_.gradients();
-  for (std::size_t k = 0; k < gradients.size(); ++k) told_[k].relax(gradients[k]);
+  for (std::size_t k = 0; k < gradients.size(); ++k) seen_[k].relax(gradients[k]);
   return gradients;
 }
 
@@ -162,11 +162,11 @@ Vec3 Bridge::kept_left_over() const {
   return to_vec3(Foam::returnReduce(to_foam(kept), Foam::sumOp<vector>()));
 }
 
-ToldFluid::Relaxed Bridge::relaxed() const {
-  ToldFluid::Relaxed all;
-  for (const ToldFluid& told : told_) {
-    all.smallest = std::min(all.smallest, told.relaxed().smallest);
-    all.cells += told.relaxed().cells;
+SeenFluid::Relaxed Bridge::relaxed() const {
+  SeenFluid::Relaxed all;
+  for (const SeenFluid& seen : seen_) {
+    all.smallest = std::min(all.smallest, seen.relaxed().smallest);
+    all.cells += seen.relaxed().cells;
   }
   return {Foam::returnReduce(all.smallest, Foam::minOp<double>()),
           Foam::returnReduce(all.cells, Foam::sumOp<long>())};
@@ -174,9 +174,9 @@ ToldFluid::Relaxed Bridge::relaxed() const {
 
 std::vector<Bridge::State> Bridge::state() const {
   std::vector<State> state;
-  for (std::size_t k = 0; k < told_.size(); ++k) {
+  for (std::size_t k = 0; k < seen_.size(); ++k) {
     const ParticlesToFine::InFluid& fluid = particles_to_fine_.state()[k];
-    state.push_back({fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, told_[k].cells(),
+    state.push_back({fluid.particles, left_over_[k].owed(), fluid.felt_shift, fluid.before, seen_[k].cells(),
                      owed_pressure_[k].state()});
   }
   return state;
@@ -190,7 +190,7 @@ void Bridge::go_on_from(std::vector<State> state) {
     particles.push_back({std::move(state[k].particles), std::move(state[k].felt_shift),
                          std::move(state[k].solid_volume_before)});
     left_over_[k].go_on_from(std::move(state[k].left_over));
-    told_[k].go_on_from(std::move(state[k].told));
+    seen_[k].go_on_from(std::move(state[k].seen));
     owed_pressure_[k].go_on_from(state[k].owed_pressure);
   }
   particles_to_fine_.go_on_from(std::move(particles));

@@ -4,7 +4,7 @@
 #include "coupler/config/parameters.hpp"
 #include "coupler/exchange/left_over.hpp"
 #include "coupler/exchange/owed_pressure.hpp"
-#include "coupler/exchange/told_fluid.hpp"
+#include "coupler/exchange/seen_fluid.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/fluid_to_bulk.hpp"
 #include "foam_side/particles_to_fine.hpp"
@@ -61,13 +61,13 @@ class Bridge {
   /// to them), owed to them at its end, and gone back to the fluid in it; surface tension that acted on their
   /// share of the fine cells in place of them.
   struct PressureImpulses {
-    Vec3 told, owed, returned, tension;
+    Vec3 seen, owed, returned, tension;
     double turnover = 0;  // of what went back, summed by its size in each bulk cell
   };
   PressureImpulses pressure_impulses() const;
   /// Over all ranks.
   CellId active_cells() const;
-  ToldFluid::Relaxed relaxed() const;
+  SeenFluid::Relaxed relaxed() const;
 
   /// What lives from one window to the next, on the bulk cells owned by this rank.
   struct State {
@@ -75,7 +75,7 @@ class Bridge {
     CellValues<LeftOver::Owed> left_over;
     CellValues<Vec3> felt_shift;
     CellValues<double> solid_volume_before;
-    CellValues<ToldFluid::Cell> told;
+    CellValues<SeenFluid::Cell> seen;
     OwedPressure::State owed_pressure;
   };
   std::vector<State> state() const;  // by fluid
@@ -95,7 +95,7 @@ class Bridge {
   ParticlesToFine particles_to_fine_;
   // By fluid:
   std::vector<LeftOver> left_over_;
-  std::vector<ToldFluid> told_;
+  std::vector<SeenFluid> seen_;
   std::vector<OwedPressure> owed_pressure_;
   std::vector<CellValues<Vec3>> shift_;  // velocity last told minus the mean that the exchange works on, m/s
 };

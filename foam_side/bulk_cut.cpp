@@ -26,26 +26,26 @@ void BulkCut::renew() {
   remap_ = std::make_unique<Remap>(world_, grid_, partition_, fine_mesh(mesh_), mapping_);
   has_profiles_ = mapping_.to_bulk == Mapping::conservative &&
                   Foam::returnReduce(remap_->straddles(), Foam::orOp<bool>());
-  find_active_pieces();
+  find_active_subcells();
 }
 
 void BulkCut::activate(const std::vector<CellId>& cells) {
   active_ = cells;
-  find_active_pieces();
+  find_active_subcells();
 }
 
-void BulkCut::find_active_pieces() {
+void BulkCut::find_active_subcells() {
   const CellValues<double> marks{active_, std::vector<double>(active_.size(), 1.0)};
   const std::vector<double> active = cells().fetch_from_owners(marks, 0.0);
-  pieces_.clear();
-  std::copy_if(remap_->pieces().begin(), remap_->pieces().end(), std::back_inserter(pieces_),
-               [&](const Piece& piece) { return active[piece.slot] > 0; });
+  subcells_.clear();
+  std::copy_if(remap_->subcells().begin(), remap_->subcells().end(), std::back_inserter(subcells_),
+               [&](const Subcell& subcell) { return active[subcell.slot] > 0; });
 }
 
 CellValues<double> BulkCut::open_shares() const {
   const Remap cut(world_, grid_, partition_, fine_mesh(mesh_), {Mapping::nearest, Mapping::conservative});
   std::vector<double> here(cut.cells().cells().size(), 0.0);
-  for (const Piece& piece : cut.pieces()) here[piece.slot] += piece.volume;
+  for (const Subcell& subcell : cut.subcells()) here[subcell.slot] += subcell.volume;
   const CellValues<double> met = cut.cells().sum_to_owners(here);
   CellValues<double> open;
   int rank;

@@ -10,7 +10,7 @@
 
 namespace demvof {
 
-/// The fine mesh cut along the bulk grid, as it is now, and which of its pieces lie in active bulk cells:
+/// The fine mesh cut along the bulk grid, as it is now, and which of its subcells lie in active bulk cells:
 /// those that the particles sent. All calls are collective over the fluid side.
 class BulkCut {
  public:
@@ -30,17 +30,17 @@ class BulkCut {
   /// Bulk cells that this rank's fine cells touch, and the way to their owners.
   const TouchedCells& cells() const { return remap_->cells(); }
   /// In active bulk cells.
-  const std::vector<Piece>& pieces() const { return pieces_; }
-  /// Pieces of a fine cell differ: the fine cells have a linear profile.
+  const std::vector<Subcell>& subcells() const { return subcells_; }
+  /// Subcells of a fine cell differ: the fine cells have a linear profile.
   bool has_profiles() const { return has_profiles_; }
-  /// A bulk cell's particles are told another velocity than the mean of its pieces.
+  /// A bulk cell's particles are told another velocity than the mean of its subcells.
   bool shifts_velocity() const { return has_profiles_ || interpolates(mapping_.to_bulk); }
 
   /// Bulk cells owned by this rank that the mesh does not fill, and the mesh's share in their volume.
   CellValues<double> open_shares() const;
 
  private:
-  void find_active_pieces();
+  void find_active_subcells();
 
   const Foam::fvMesh& mesh_;
   MappingParameters mapping_;
@@ -50,7 +50,7 @@ class BulkCut {
   std::unique_ptr<Remap> remap_;
   bool has_profiles_ = false;
   std::vector<CellId> active_;
-  std::vector<Piece> pieces_;
+  std::vector<Subcell> subcells_;
 };
 
 }  // namespace demvof

@@ -60,9 +60,10 @@ CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid,
   const std::vector<CellId>& touched = cut.cells().cells();
   Connections connections(grid, touched);
   std::vector<std::vector<CellId>> bulk(static_cast<std::size_t>(mesh.nCells()));  // of each fine cell
-  for (const Piece& piece : cut.pieces()) {
-    connections.fill(piece.slot, piece.volume);
-    if (piece.volume > sticks_out * mesh.V()[piece.fine]) bulk[piece.fine].push_back(touched[piece.slot]);
+  for (const Subcell& subcell : cut.subcells()) {
+    connections.fill(subcell.slot, subcell.volume);
+    if (subcell.volume > sticks_out * mesh.V()[subcell.fine])
+      bulk[subcell.fine].push_back(touched[subcell.slot]);
   }
   const auto connect = [&](const std::vector<CellId>& some, const std::vector<CellId>& others) {
     for (const CellId a : some)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the fine mesh to the bulk grid (paper, section 6; docs/theory.md).
 //
-//   q_b = sum_f W_fb q_f / sum_f W_fb      W_fb: weight of the piece of fine cell f in bulk cell b
+//   q_b = sum_f W_fb q_f / sum_f W_fb      W_fb: weight of the subcell of fine cell f in bulk cell b
 //
 // with the weights of sharing_weights.hpp: of forces for velocity, acceleration and vorticity, so that what
 // the particles do to the fluid they are told with; of the gradient for forces per volume (pressure gradient,
 // stress).
 //
 // Where the surface cuts a bulk cell, liquid (k = 0) and gas (k = 1) are told each by itself: V_fb becomes
-// the part of the piece that is k (surface_to_bulk.hpp), density and viscosity are those of k, and
+// the part of the subcell that is k (surface_to_bulk.hpp), density and viscosity are those of k, and
 //
 //   grad p_k = mean over k of (grad p - rho g) + rho_k g
 //
@@ -16,7 +16,7 @@
 // the liquid's hydrostatic gradient and a dry one the gas's, however the surface is smeared.
 //
 // In a fine cell that lies in several bulk cells u and grad p have a linear profile (conservative), so that
-// its pieces differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
+// its subcells differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
 // centre of the bulk cell (sample_fluid.hpp).
 
 #include "foam_side/fluid_to_bulk.hpp"
@@ -99,27 +99,27 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
     const tmp<scalarField> viscosity_k =
         surface_.fluids() > 1 ? dynamic_viscosity(flow_, k) : tmp<scalarField>(viscosity());
     std::vector<FluidSums> sums(cut_.cells().cells().size());
-    for (const Piece& piece : cut_.pieces()) {
-      const double v = surface_.share(k, piece) * piece.volume;
+    for (const Subcell& subcell : cut_.subcells()) {
+      const double v = surface_.share(k, subcell) * subcell.volume;
       if (v == 0) continue;
-      FluidSums& sum = sums[piece.slot];
-      const bool cut = surface_.is_cut(piece.slot);
-      const SharingWeights::Of w = weights.of(k, piece);
-      const double rho = density_between_particles(flow_, piece.fine);
-      sum.weighted_velocity += w.force * to_vec3(flow_.U[piece.fine]);
+      FluidSums& sum = sums[subcell.slot];
+      const bool cut = surface_.is_cut(subcell.slot);
+      const SharingWeights::Of w = weights.of(k, subcell);
+      const double rho = density_between_particles(flow_, subcell.fine);
+      sum.weighted_velocity += w.force * to_vec3(flow_.U[subcell.fine]);
       sum.weight += w.force;
-      sum.pressure_gradient += w.gradient * to_vec3(gradient[piece.fine]);
+      sum.pressure_gradient += w.gradient * to_vec3(gradient[subcell.fine]);
       if (cut) sum.pressure_gradient += w.gradient * (rho_k - rho) * to_vec3(flow_.g.value());
       sum.gradient_weight += w.gradient;
       sum.rho += w.property * (cut ? rho_k : rho);
-      sum.mu += w.property * (cut ? viscosity_k()[piece.fine] : viscosity()[piece.fine]);
+      sum.mu += w.property * (cut ? viscosity_k()[subcell.fine] : viscosity()[subcell.fine]);
       sum.property_weight += w.property;
-      sum.eps += (flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0) * v;
+      sum.eps += (flow_.porosity ? flow_.porosity->eps[subcell.fine] : 1.0) * v;
       sum.volume += v;
       if (!cut_.has_profiles()) continue;
-      const vector offset = to_foam(piece.offset);
-      sum.weighted_rise += w.force * to_vec3(offset & velocity_slope()[piece.fine]);
-      if (!cut) sum.pressure_gradient += w.gradient * to_vec3(offset & gradient_slope()[piece.fine]);
+      const vector offset = to_foam(subcell.offset);
+      sum.weighted_rise += w.force * to_vec3(offset & velocity_slope()[subcell.fine]);
+      if (!cut) sum.pressure_gradient += w.gradient * to_vec3(offset & gradient_slope()[subcell.fine]);
     }
     const CellValues<FluidSums> owned = cut_.cells().sum_to_owners(sums);
     Means& means = all.emplace_back();
@@ -166,14 +166,14 @@ std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
   std::vector<CellValues<BulkFluidGradients>> all;
   for (int k = 0; k < surface_.fluids(); ++k) {
     std::vector<GradientSums> sums(cut_.cells().cells().size());
-    for (const Piece& piece : cut_.pieces()) {
-      const double v = surface_.share(k, piece) * piece.volume;
+    for (const Subcell& subcell : cut_.subcells()) {
+      const double v = surface_.share(k, subcell) * subcell.volume;
       if (v == 0) continue;
-      GradientSums& sum = sums[piece.slot];
-      const SharingWeights::Of w = weights.of(k, piece);
-      sum.weighted.stress_force += w.gradient * to_vec3(fine.stress_force[piece.fine]);
-      sum.weighted.acceleration += w.force * to_vec3(fine.acceleration[piece.fine]);
-      sum.weighted.vorticity += w.force * to_vec3(fine.vorticity[piece.fine]);
+      GradientSums& sum = sums[subcell.slot];
+      const SharingWeights::Of w = weights.of(k, subcell);
+      sum.weighted.stress_force += w.gradient * to_vec3(fine.stress_force[subcell.fine]);
+      sum.weighted.acceleration += w.force * to_vec3(fine.acceleration[subcell.fine]);
+      sum.weighted.vorticity += w.force * to_vec3(fine.vorticity[subcell.fine]);
       sum.weight += w.force;
       sum.gradient_weight += w.gradient;
     }
@@ -193,15 +193,15 @@ std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
 CellValues<BulkInterface> FluidToBulk::interface() const {
   const tmp<volVectorField> gradient = fvc::grad(flow_.alpha);
   std::vector<BulkInterface> sums(cut_.cells().cells().size());
-  for (const Piece& piece : cut_.pieces()) {
-    const Vec3 steepness = to_vec3(gradient()[piece.fine]);
-    if (norm(steepness) * std::cbrt(flow_.mesh.V()[piece.fine]) < least_change) continue;
-    const double area = norm(steepness) * piece.volume;
-    BulkInterface& sum = sums[piece.slot];
+  for (const Subcell& subcell : cut_.subcells()) {
+    const Vec3 steepness = to_vec3(gradient()[subcell.fine]);
+    if (norm(steepness) * std::cbrt(flow_.mesh.V()[subcell.fine]) < least_change) continue;
+    const double area = norm(steepness) * subcell.volume;
+    BulkInterface& sum = sums[subcell.slot];
     sum.area += area;
-    sum.position += area * to_vec3(flow_.mesh.C()[piece.fine]);
-    sum.velocity += area * to_vec3(flow_.U[piece.fine]);
-    sum.gradient += piece.volume * steepness;
+    sum.position += area * to_vec3(flow_.mesh.C()[subcell.fine]);
+    sum.velocity += area * to_vec3(flow_.U[subcell.fine]);
+    sum.gradient += subcell.volume * steepness;
   }
   const CellValues<BulkInterface> owned = cut_.cells().sum_to_owners(sums);
   CellValues<BulkInterface> holding;

@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
   using namespace demvof;
   const ProgramOptions options = read_program_options(
       "foam_side", "Two-fluid (VOF) side of a DEM-VOF pair; alone, a plain VOF solver.", argc, argv);
-  OwnWorld world(argc, argv, Side::fluid, start_patience(options), options.out);
+  OwnWorld world(argc, argv, Side::fluid, start_limit_seconds(options), options.out);
   return guarded_main(world, [&] { return run_fluid(options, world); });
 }

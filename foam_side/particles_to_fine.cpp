@@ -7,7 +7,7 @@
 // sum w V u_f / W (a linear profile in the fine cells, a value at a point: fluid_to_bulk.cpp); the difference
 // is taken from its reference:
 //
-//   F_b = -J/dt + C (u_ref - (u_told - u_mean) - u)
+//   F_b = -J/dt + C (u_ref - (u_seen - u_mean) - u)
 //
 // and a steady state is still not shifted by it. In the fine cells of a bulk cell u_ref has a shape of mean
 // 0,
@@ -15,7 +15,7 @@
 //   lambda (u_f - u_b) + (1 - lambda) grad v . (x_f - X_b)
 //
 // u: of the window's start, lambda: momentum_exchange.hpp, v: velocity of the solid. Impulses are exchanged
-// by pieces with every mapping.
+// by subcells with every mapping.
 
 #include "foam_side/particles_to_fine.hpp"
 
@@ -73,7 +73,7 @@ void ParticlesToFine::distribute() {
     touched_.push_back(cells.fetch_from_owners(fluid.particles, BulkParticles{}));
     if (cut_.shifts_velocity()) felt_shift_here_.push_back(cells.fetch_from_owners(fluid.felt_shift, Vec3{}));
   }
-  coefficient_part_.assign(state_.size(), std::vector<double>(cut_.pieces().size(), 0.0));
+  coefficient_part_.assign(state_.size(), std::vector<double>(cut_.subcells().size(), 0.0));
 }
 
 /// volumes: solid volume by fluid and touched cell, m3.
@@ -97,14 +97,14 @@ std::vector<double> ParticlesToFine::solid_fraction(const std::vector<std::vecto
     inside[slot] = solid_in_fluids(volumes[0][slot], volumes[1][slot], liquid[slot], gas[slot],
                                    coupling_.averaging.maximum_solid_fraction);
   }
-  for (const Piece& piece : cut_.remap().pieces()) {
-    const SolidInFluids& solid = inside[piece.slot];
-    if (!flat[piece.slot] || whole[piece.slot] == 0) continue;
-    const double share = piece.volume / flow_.mesh.V()[piece.fine];
-    fraction[piece.fine] +=
-        share * (surface_.share(0, piece) * solid.liquid + surface_.share(1, piece) * solid.gas -
-                 whole[piece.slot] / room[piece.slot]);
-    spread_.moved_volume += solid.moved * piece.volume / room[piece.slot];
+  for (const Subcell& subcell : cut_.remap().subcells()) {
+    const SolidInFluids& solid = inside[subcell.slot];
+    if (!flat[subcell.slot] || whole[subcell.slot] == 0) continue;
+    const double share = subcell.volume / flow_.mesh.V()[subcell.fine];
+    fraction[subcell.fine] +=
+        share * (surface_.share(0, subcell) * solid.liquid + surface_.share(1, subcell) * solid.gas -
+                 whole[subcell.slot] / room[subcell.slot]);
+    spread_.moved_volume += solid.moved * subcell.volume / room[subcell.slot];
   }
   return fraction;
 }
@@ -177,7 +177,7 @@ std::vector<ParticlesToFine::Solid> ParticlesToFine::solid() const {
   return all;
 }
 
-/// Per piece of the cut, m/s: how much faster than in all of their bulk cell the particles are there.
+/// Per subcell of the cut, m/s: how much faster than in all of their bulk cell the particles are there.
 std::vector<Vec3> ParticlesToFine::own_shape() const {
   const std::vector<Solid> solids = solid();
   constexpr int width = 4;  // 1 where there are particles; v
@@ -186,10 +186,10 @@ std::vector<Vec3> ParticlesToFine::own_shape() const {
     const Vec3 v = cell.volume > 0 ? cell.flux / cell.volume : Vec3{};
     rows.insert(rows.end(), {cell.volume > 0 ? 1.0 : 0.0, v.x, v.y, v.z});
   }
-  const std::vector<double> rise = cut_.remap().rises(cut_.pieces(), rows, width);
+  const std::vector<double> rise = cut_.remap().rises(cut_.subcells(), rows, width);
   std::vector<Vec3> shape;
   for (std::size_t i = 0; i < rise.size(); i += width) {
-    const std::size_t cell = std::size_t(cut_.pieces()[i / width].slot) * width;
+    const std::size_t cell = std::size_t(cut_.subcells()[i / width].slot) * width;
     Vec3& here = shape.emplace_back();  // neighbours without particles do not count
     for (int axis = 0; axis < 3 && rows[cell] > 0; ++axis)
       here[axis] = rise[i + 1 + axis] - rise[i] * rows[cell + 1 + axis];
@@ -211,17 +211,17 @@ Foam::vectorField ParticlesToFine::solid_velocity() const {
   Foam::vectorField flux(flow_.mesh.nCells(), Foam::Zero);
   scalarField volume(flow_.mesh.nCells(), 0.0);
   for (const std::vector<BulkParticles>& touched : touched_)
-    for (const Piece& piece : cut_.remap().pieces()) {
-      const double share = piece.volume / cut_.remap().bulk_volume()[piece.slot];
-      flux[piece.fine] += share * to_foam(touched[piece.slot].solid_flux);
-      volume[piece.fine] += share * touched[piece.slot].solid_volume;
+    for (const Subcell& subcell : cut_.remap().subcells()) {
+      const double share = subcell.volume / cut_.remap().bulk_volume()[subcell.slot];
+      flux[subcell.fine] += share * to_foam(touched[subcell.slot].solid_flux);
+      volume[subcell.fine] += share * touched[subcell.slot].solid_volume;
     }
   forAll(flux, cell) if (volume[cell] > 0) flux[cell] /= volume[cell];
   return flux;
 }
 
 void ParticlesToFine::spread_sources() {
-  const std::vector<Piece>& pieces = cut_.pieces();
+  const std::vector<Subcell>& subcells = cut_.subcells();
   ParticleSource& source = *flow_.source;
   source.force = Foam::dimensionedVector(source.force.dimensions(), Foam::Zero);
   source.coefficient = dimensionedScalar(source.coefficient.dimensions(), Foam::Zero);
@@ -240,8 +240,8 @@ void ParticlesToFine::spread_sources() {
     // What the particles of a bulk cell have of their own in its fine cells.
     const auto shape = [&](std::size_t i) {
       if (!changes) return Vec3{};
-      const double following = sources[pieces[i].slot].following;
-      return following * to_vec3(flow_.U[pieces[i].fine]) + (1 - following) * own_shapes[i];
+      const double following = sources[subcells[i].slot].following;
+      return following * to_vec3(flow_.U[subcells[i].fine]) + (1 - following) * own_shapes[i];
     };
     // Sums of w V over the fine cells of a bulk cell: of fluid k, and of all that is there when k has left
     // it; of w V times the shape for fluid k.
@@ -250,32 +250,32 @@ void ParticlesToFine::spread_sources() {
       Vec3 shape;
     };
     std::vector<Totals> total(touched_[k].size());
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Piece& piece = pieces[i];
-      const double own = weights.of(k, piece).force;
-      total[piece.slot].own += own;
-      total[piece.slot].shape += own * shape(i);
-      total[piece.slot].all += weights.of_any(piece);
+    for (std::size_t i = 0; i < subcells.size(); ++i) {
+      const Subcell& subcell = subcells[i];
+      const double own = weights.of(k, subcell).force;
+      total[subcell.slot].own += own;
+      total[subcell.slot].shape += own * shape(i);
+      total[subcell.slot].all += weights.of_any(subcell);
     }
     total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Piece& piece = pieces[i];
-      const FluidSource& bulk = sources[piece.slot];
-      const Totals& sum = total[piece.slot];
+    for (std::size_t i = 0; i < subcells.size(); ++i) {
+      const Subcell& subcell = subcells[i];
+      const FluidSource& bulk = sources[subcell.slot];
+      const Totals& sum = total[subcell.slot];
       const double part =
-          sum.own > 0 ? weights.of(k, piece).force / sum.own : weights.of_any(piece) / sum.all;
-      const double share = part / volume[piece.fine];
+          sum.own > 0 ? weights.of(k, subcell).force / sum.own : weights.of_any(subcell) / sum.all;
+      const double share = part / volume[subcell.fine];
       coefficient_part_[k][i] = share * bulk.coefficient;
-      source.force[piece.fine] += share * to_foam(bulk.explicit_force);
-      source.coefficient[piece.fine] += coefficient_part_[k][i];
+      source.force[subcell.fine] += share * to_foam(bulk.explicit_force);
+      source.coefficient[subcell.fine] += coefficient_part_[k][i];
       Vec3 reference = bulk.reference_velocity;
       if (sum.own > 0) reference += shape(i) - sum.shape / sum.own;
-      source.reference[piece.fine] += coefficient_part_[k][i] * to_foam(reference);
+      source.reference[subcell.fine] += coefficient_part_[k][i] * to_foam(reference);
     }
   }
   for (std::vector<double>& parts : coefficient_part_)
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const double whole = source.coefficient[pieces[i].fine];
+    for (std::size_t i = 0; i < subcells.size(); ++i) {
+      const double whole = source.coefficient[subcells[i].fine];
       parts[i] = whole > 0 ? parts[i] / whole : 0;
     }
   forAll(source.coefficient, cell) if (source.coefficient[cell] > 0) source.reference[cell] /=
@@ -288,11 +288,11 @@ std::vector<CellValues<Vec3>> ParticlesToFine::collect_impulse() {
   forAll(given, cell) collected_sum_ += volume[cell] * to_vec3(given[cell]);
   std::vector<CellValues<Vec3>> taken;
   if (hands_back_left_over(coupling_.exchange)) {
-    const std::vector<Piece>& pieces = cut_.pieces();
+    const std::vector<Subcell>& subcells = cut_.subcells();
     for (const std::vector<double>& parts : coefficient_part_) {
       std::vector<Vec3> impulse(cut_.cells().cells().size());
-      for (std::size_t i = 0; i < pieces.size(); ++i)
-        impulse[pieces[i].slot] -= parts[i] * volume[pieces[i].fine] * to_vec3(given[pieces[i].fine]);
+      for (std::size_t i = 0; i < subcells.size(); ++i)
+        impulse[subcells[i].slot] -= parts[i] * volume[subcells[i].fine] * to_vec3(given[subcells[i].fine]);
       taken.push_back(cut_.cells().sum_to_owners(impulse));
     }
   }
@@ -304,21 +304,21 @@ bool ParticlesToFine::hands_back() const {
   return hands_back_left_over(coupling_.exchange);
 }
 
-// -(1 - eps) V grad p dt of a fine cell goes to its pieces as their bulk cells have solid of each fluid.
+// -(1 - eps) V grad p dt of a fine cell goes to its subcells as their bulk cells have solid of each fluid.
 std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     const Foam::vectorField& gradient) const {
-  const std::vector<Piece>& pieces = cut_.remap().pieces();
+  const std::vector<Subcell>& subcells = cut_.remap().subcells();
   const int fluids = static_cast<int>(state_.size());
-  std::vector<std::vector<double>> part(state_.size());  // of each piece
+  std::vector<std::vector<double>> part(state_.size());  // of each subcell
   std::vector<double> sum(static_cast<std::size_t>(flow_.mesh.nCells()), 0.0);
   for (int k = 0; k < fluids; ++k) {
     const std::vector<double> before = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
     const std::vector<double> volume = fluids > 1 ? surface_.volumes(k) : cut_.remap().bulk_volume();
-    for (const Piece& piece : pieces) {
-      const double solid = before[piece.slot] + touched_[k][piece.slot].solid_volume;
-      const double own = surface_.share(k, piece) * piece.volume;
-      part[k].push_back(own > 0 ? own / volume[piece.slot] * solid : 0);
-      sum[piece.fine] += part[k].back();
+    for (const Subcell& subcell : subcells) {
+      const double solid = before[subcell.slot] + touched_[k][subcell.slot].solid_volume;
+      const double own = surface_.share(k, subcell) * subcell.volume;
+      part[k].push_back(own > 0 ? own / volume[subcell.slot] * solid : 0);
+      sum[subcell.fine] += part[k].back();
     }
   }
   const double dt = flow_.time.deltaTValue();
@@ -326,13 +326,13 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
   std::vector<CellValues<OwedPressure::Left>> left;
   for (int k = 0; k < fluids; ++k) {
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const label cell = pieces[i].fine;
+    for (std::size_t i = 0; i < subcells.size(); ++i) {
+      const label cell = subcells[i].fine;
       if (!(sum[cell] > 0)) continue;
       const double exposed =
           part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) * flow_.mesh.V()[cell];
-      here[pieces[i].slot].impulse -= exposed * to_vec3(gradient[cell]);
-      here[pieces[i].slot].exposed += exposed;
+      here[subcells[i].slot].impulse -= exposed * to_vec3(gradient[cell]);
+      here[subcells[i].slot].exposed += exposed;
     }
     CellValues<OwedPressure::Left>& cells = left.emplace_back(cut_.cells().sum_to_owners(here));
     for (std::size_t i = 0; i < cells.cells.size(); ++i) {

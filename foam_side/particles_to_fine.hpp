@@ -109,7 +109,7 @@ class ParticlesToFine {
   std::vector<InFluid> state_;                         // as received
   std::vector<std::vector<BulkParticles>> touched_;    // per touched cell of the cut
   std::vector<std::vector<Vec3>> felt_shift_here_;     // per touched cell; where the mapping makes one
-  std::vector<std::vector<double>> coefficient_part_;  // per piece of the cut: its part of the fine cell's
+  std::vector<std::vector<double>> coefficient_part_;  // per subcell of the cut: its part of the fine cell's
                                                        // coefficient, -
   std::vector<Droplet> droplets_;
   Spread spread_;

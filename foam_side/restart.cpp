@@ -211,11 +211,11 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"left_over", as_json(fluid.left_over)},
                         {"felt_shift", as_json(fluid.felt_shift)},
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
-                        {"told", as_json(fluid.told)},
+                        {"seen", as_json(fluid.seen)},
                         {"owed_pressure", as_json(fluid.owed_pressure)}});
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
-                      {"surface", as_json(bridge.surface_to_bulk().told())},
+                      {"surface", as_json(bridge.surface_to_bulk().seen())},
                       {"books", record.books()}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
@@ -267,7 +267,7 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
   return point;
 }
 
-CellValues<BulkSurface> read_told_surface(const fs::path& run, long window) {
+CellValues<BulkSurface> read_seen_surface(const fs::path& run, long window) {
   const fs::path path = file_of_rank(run, window);
   try {
     std::ifstream stream(path, std::ios::binary);
@@ -289,7 +289,7 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
           {cell_values<BulkParticles>(fluid.at("particles")),
            cell_values<LeftOver::Owed>(fluid.at("left_over")), cell_values<Vec3>(fluid.at("felt_shift")),
            cell_values<double>(fluid.at("solid_volume_before")),
-           cell_values<ToldFluid::Cell>(fluid.at("told")), owed_pressure(fluid.at("owed_pressure"))});
+           cell_values<SeenFluid::Cell>(fluid.at("seen")), owed_pressure(fluid.at("owed_pressure"))});
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));

@@ -26,7 +26,7 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
                         const OwnWorld& world);
 
 /// The surface as the particles of that state know it: with it the run goes on. Throws as the next.
-CellValues<BulkSurface> read_told_surface(const std::filesystem::path& run, long window);
+CellValues<BulkSurface> read_seen_surface(const std::filesystem::path& run, long window);
 
 /// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
 /// Throws InputError when a file is not there or not what was written.

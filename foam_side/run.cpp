@@ -123,11 +123,11 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   ParticlesToFine& to_fine = bridge.particles_to_fine();
   SurfaceToBulk& surface = bridge.surface_to_bulk();
   if (flow.scene.two_fluids && start)
-    surface.go_on_from(read_told_surface(options.out, start->window));
+    surface.go_on_from(read_seen_surface(options.out, start->window));
   else if (flow.scene.two_fluids)
     surface.news();  // all of it
   const CellValues<BulkWalls> walls = find_walls(flow.mesh, grid, link.mine(), world.comm());
-  FluidEnd::Start first = link.start(bridge.cut().open_shares(), walls, surface.told());
+  FluidEnd::Start first = link.start(bridge.cut().open_shares(), walls, surface.seen());
   bridge.take(std::move(first.particles));
   if (start) {
     read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
@@ -201,7 +201,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.full_cells = to_fine.spread().full_cells;
     enter_books(flow, done.fluid);
     const Bridge::PressureImpulses pressure = bridge.pressure_impulses();
-    done.fluid.told_pressure = pressure.told;
+    done.fluid.seen_pressure = pressure.seen;
     done.fluid.owed_pressure = pressure.owed;
     done.fluid.returned_pressure = pressure.returned;
     done.fluid.returned_turnover = pressure.turnover;

@@ -77,9 +77,9 @@ class PointValues {
 
 FluidSampler::FluidSampler(const Foam::fvMesh& mesh, const Remap& remap, Mapping mapping)
     : mapping_(mapping), slots_(remap.bulk_centroid().size()) {
-  for (const Piece& piece : remap.pieces()) {
-    const vector point = to_foam(remap.bulk_centroid()[piece.slot]);
-    if (holds(mesh, piece.fine, point)) hits_.push_back({piece.slot, piece.fine, point});
+  for (const Subcell& subcell : remap.subcells()) {
+    const vector point = to_foam(remap.bulk_centroid()[subcell.slot]);
+    if (holds(mesh, subcell.fine, point)) hits_.push_back({subcell.slot, subcell.fine, point});
   }
 }
 

@@ -21,9 +21,9 @@ SharingWeights::SharingWeights(const Flow& flow, const SurfaceToBulk& surface, c
     double solid = 0, volume = 0;
   };
   std::vector<Sums> sums(with_profile_.size());
-  for (const Piece& piece : cut.pieces()) {
-    sums[piece.slot].solid += std::max(0.0, 1 - eps(piece)) * piece.volume;
-    sums[piece.slot].volume += piece.volume;
+  for (const Subcell& subcell : cut.subcells()) {
+    sums[subcell.slot].solid += std::max(0.0, 1 - eps(subcell)) * subcell.volume;
+    sums[subcell.slot].volume += subcell.volume;
   }
   sums = cut.cells().fetch_from_owners(cut.cells().sum_to_owners(sums), Sums{});
   for (std::size_t slot = 0; slot < sums.size(); ++slot)
@@ -31,19 +31,19 @@ SharingWeights::SharingWeights(const Flow& flow, const SurfaceToBulk& surface, c
         sums[slot].solid > least_solid * sums[slot].volume && !surface.is_cut(static_cast<int>(slot));
 }
 
-SharingWeights::Of SharingWeights::of(int k, const Piece& piece) const {
-  const double v = surface_.share(k, piece) * piece.volume, rho = flow_.rho[piece.fine];
-  if (with_profile_[piece.slot]) {
-    const double solid = std::max(0.0, 1 - eps(piece)) * v;
+SharingWeights::Of SharingWeights::of(int k, const Subcell& subcell) const {
+  const double v = surface_.share(k, subcell) * subcell.volume, rho = flow_.rho[subcell.fine];
+  if (with_profile_[subcell.slot]) {
+    const double solid = std::max(0.0, 1 - eps(subcell)) * v;
     return {solid * rho, solid, solid};
   }
-  const double fluid = eps(piece) * v;
+  const double fluid = eps(subcell) * v;
   if (sharing_ == Sharing::volume) return {v, fluid, v};
-  return {surface_.is_cut(piece.slot) ? fluid : rho * fluid, fluid, v};
+  return {surface_.is_cut(subcell.slot) ? fluid : rho * fluid, fluid, v};
 }
 
-double SharingWeights::of_any(const Piece& piece) const {
-  return (sharing_ == Sharing::volume ? 1.0 : eps(piece) * flow_.rho[piece.fine]) * piece.volume;
+double SharingWeights::of_any(const Subcell& subcell) const {
+  return (sharing_ == Sharing::volume ? 1.0 : eps(subcell) * flow_.rho[subcell.fine]) * subcell.volume;
 }
 
 }  // namespace demvof

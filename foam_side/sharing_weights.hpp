@@ -10,8 +10,8 @@
 
 namespace demvof {
 
-/// What the pieces of a bulk cell count in the force that they take from it and in what they tell it
-/// (particles_to_fine.cpp, fluid_to_bulk.cpp), for the fluid as it is now. V: the volume of a piece that
+/// What the subcells of a bulk cell count in the force that they take from it and in what they tell it
+/// (particles_to_fine.cpp, fluid_to_bulk.cpp), for the fluid as it is now. V: the volume of a subcell that
 /// counts as fluid k, m3.
 ///
 ///                                                   force, velocity    density, viscosity    pressure
@@ -33,13 +33,15 @@ class SharingWeights {
   /// Collective over the fluid side.
   SharingWeights(const Flow& flow, const SurfaceToBulk& surface, const BulkCut& cut, Sharing sharing);
 
-  /// Of a piece, for fluid k.
-  Of of(int k, const Piece& piece) const;
-  /// Of a piece, for the force on a fluid that has left the bulk cell: all that is there takes it.
-  double of_any(const Piece& piece) const;
+  /// Of a subcell, for fluid k.
+  Of of(int k, const Subcell& subcell) const;
+  /// Of a subcell, for the force on a fluid that has left the bulk cell: all that is there takes it.
+  double of_any(const Subcell& subcell) const;
 
  private:
-  double eps(const Piece& piece) const { return flow_.porosity ? flow_.porosity->eps[piece.fine] : 1.0; }
+  double eps(const Subcell& subcell) const {
+    return flow_.porosity ? flow_.porosity->eps[subcell.fine] : 1.0;
+  }
 
   const Flow& flow_;
   const SurfaceToBulk& surface_;

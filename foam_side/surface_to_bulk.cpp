@@ -8,7 +8,7 @@
 namespace demvof {
 namespace {
 
-/// Sums over the pieces of a bulk cell.
+/// Sums over the subcells of a bulk cell.
 struct SurfaceSums {
   double volume = 0, liquid = 0;  // sum V, sum V alpha, m3
   Vec3 steepness;                 // sum V grad alpha, m2: into the liquid
@@ -43,24 +43,25 @@ SurfaceToBulk::SurfaceToBulk(const Flow& flow, const BulkCut& cut) : flow_(flow)
 void SurfaceToBulk::look() {
   if (fluids() == 1) return;
   std::vector<double> liquid(cut_.cells().cells().size());
-  for (const Piece& piece : cut_.remap().pieces())
-    liquid[piece.slot] += piece.volume * within_bounds(flow_.alpha[piece.fine]);
+  for (const Subcell& subcell : cut_.remap().subcells())
+    liquid[subcell.slot] += subcell.volume * within_bounds(flow_.alpha[subcell.fine]);
   liquid_ = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(liquid), 0.0);
   const std::vector<double>& volume = cut_.remap().bulk_volume();
   for (std::size_t slot = 0; slot < liquid_.size(); ++slot)
     if (volume[slot] > 0) liquid_[slot] /= volume[slot];
 }
 
-double SurfaceToBulk::share(int k, const Piece& piece) const {
+double SurfaceToBulk::share(int k, const Subcell& subcell) const {
   if (fluids() == 1) return 1;
-  if (!is_cut(piece.slot)) return (liquid_[piece.slot] > 0.5) == (k == 0) ? 1 : 0;
-  const double alpha = within_bounds(flow_.alpha[piece.fine]);
+  if (!is_cut(subcell.slot)) return (liquid_[subcell.slot] > 0.5) == (k == 0) ? 1 : 0;
+  const double alpha = within_bounds(flow_.alpha[subcell.fine]);
   return k == 0 ? alpha : 1 - alpha;
 }
 
 std::vector<double> SurfaceToBulk::volumes(int k) const {
   std::vector<double> volumes(cut_.cells().cells().size());
-  for (const Piece& piece : cut_.remap().pieces()) volumes[piece.slot] += share(k, piece) * piece.volume;
+  for (const Subcell& subcell : cut_.remap().subcells())
+    volumes[subcell.slot] += share(k, subcell) * subcell.volume;
   return cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(volumes), 0.0);
 }
 
@@ -69,12 +70,12 @@ CellValues<BulkSurface> SurfaceToBulk::news() {
   const BulkGrid& grid = cut_.grid();
   const std::vector<CellId>& cells = cut_.cells().cells();
   std::vector<SurfaceSums> sums(cells.size());
-  for (const Piece& piece : cut_.remap().pieces()) {
-    SurfaceSums& sum = sums[piece.slot];
-    sum.volume += piece.volume;
-    sum.liquid += piece.volume * within_bounds(flow_.alpha[piece.fine]);
-    sum.steepness += piece.volume * to_vec3(gradient()[piece.fine]);
-    sum.moment += piece.volume * (piece.centroid - grid.cell_centre(grid.ijk(cells[piece.slot])));
+  for (const Subcell& subcell : cut_.remap().subcells()) {
+    SurfaceSums& sum = sums[subcell.slot];
+    sum.volume += subcell.volume;
+    sum.liquid += subcell.volume * within_bounds(flow_.alpha[subcell.fine]);
+    sum.steepness += subcell.volume * to_vec3(gradient()[subcell.fine]);
+    sum.moment += subcell.volume * (subcell.centroid - grid.cell_centre(grid.ijk(cells[subcell.slot])));
   }
   const CellValues<SurfaceSums> owned = cut_.cells().sum_to_owners(sums);
   CellValues<BulkSurface> news, now;
@@ -86,19 +87,19 @@ CellValues<BulkSurface> SurfaceToBulk::news() {
       now.cells.push_back(owned.cells[i]);
       now.values.push_back(surface);
     }
-    const BulkSurface* before = find(told_, owned.cells[i]);
+    const BulkSurface* before = find(seen_, owned.cells[i]);
     const bool was_cut = before && demvof::is_cut(*before);
     if (first_ ? !wet : !demvof::is_cut(surface) && !was_cut && wet == (before != nullptr)) continue;
     news.cells.push_back(owned.cells[i]);
     news.values.push_back(surface);
   }
-  told_ = std::move(now);
+  seen_ = std::move(now);
   first_ = false;
   return news;
 }
 
-void SurfaceToBulk::go_on_from(CellValues<BulkSurface> told) {
-  told_ = std::move(told);
+void SurfaceToBulk::go_on_from(CellValues<BulkSurface> seen) {
+  seen_ = std::move(seen);
   first_ = false;
 }
 

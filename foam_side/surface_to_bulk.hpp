@@ -23,13 +23,13 @@ class SurfaceToBulk {
   /// Takes the fine mesh's alpha as it is now.
   void look();
 
-  /// Share of a piece's volume that counts as fluid k, -: alpha or 1 - alpha where the surface cuts the bulk
-  /// cell, else all or nothing.
-  double share(int k, const Piece& piece) const;
+  /// Share of a subcell's volume that counts as fluid k, -: alpha or 1 - alpha where the surface cuts the
+  /// bulk cell, else all or nothing.
+  double share(int k, const Subcell& subcell) const;
   bool is_cut(int slot) const {
     return fluids() > 1 && liquid_[slot] > least_seen_share && liquid_[slot] < 1 - least_seen_share;
   }
-  /// Sum over the pieces of each touched bulk cell of share times volume, over all ranks, m3.
+  /// Sum over the subcells of each touched bulk cell of share times volume, over all ranks, m3.
   std::vector<double> volumes(int k) const;
 
   /// The surface in the cells owned by this rank: where it is now, and where it was at the last call and is
@@ -38,14 +38,14 @@ class SurfaceToBulk {
 
   /// What the particles know after that: all cells that hold liquid, owned by this rank. For a run that goes
   /// on, which begins with it.
-  const CellValues<BulkSurface>& told() const { return told_; }
-  void go_on_from(CellValues<BulkSurface> told);
+  const CellValues<BulkSurface>& seen() const { return seen_; }
+  void go_on_from(CellValues<BulkSurface> seen);
 
  private:
   const Flow& flow_;
   const BulkCut& cut_;
   std::vector<double> liquid_;    // of the fluid in each touched bulk cell, -
-  CellValues<BulkSurface> told_;  // cells owned by this rank that held liquid at the last call
+  CellValues<BulkSurface> seen_;  // cells owned by this rank that held liquid at the last call
   bool first_ = true;
 };
 

@@ -49,7 +49,7 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
   return options;
 }
 
-double start_patience(const ProgramOptions& options) {
+double start_limit_seconds(const ProgramOptions& options) {
   try {
     return read_case(options.case_file, options.overrides).coupling.time_out;
   } catch (const std::exception&) {

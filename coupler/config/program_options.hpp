@@ -26,6 +26,6 @@ ProgramOptions read_program_options(const std::string& program, const std::strin
 
 /// How long the processes of a run may take to start, s: coupling.time_out; its default when the case file
 /// cannot be read, which comes out later.
-double start_patience(const ProgramOptions& options);
+double start_limit_seconds(const ProgramOptions& options);
 
 }  // namespace demvof

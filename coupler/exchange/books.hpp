@@ -24,7 +24,7 @@ struct FluidReport {
   Vec3 replacement_impulse;                 // that came with it since then, N s
   Vec3 momentum;                            // at the end of the window, kg m/s
   OutsideImpulses outside;                  // those that the fluid side sees
-  Vec3 told_pressure;      // what the particles were given with the pressure gradient they were told, N s
+  Vec3 seen_pressure;      // what the particles were given with the pressure gradient they were told, N s
   Vec3 owed_pressure;      // what its pressure left to them and they have not been given, at the window's end
   Vec3 returned_pressure;  // of that, what went back to the fluid with the explicit impulse
   double returned_turnover = 0;  // sum over the bulk cells of its size, N s
@@ -114,7 +114,7 @@ class Books {
     outside.held = -particles.held_impulse;
     outside.stress = particles.stress_impulse;
     outside.constant = particles.constant_impulse;
-    outside.pressure_lag = particles.pressure_impulse - fluid.told_pressure;
+    outside.pressure_lag = particles.pressure_impulse - fluid.seen_pressure;
     owed_pressure_ = fluid.owed_pressure;
     momentum_.close(fluid.momentum + particles.momentum + pending_ + owed_pressure_, outside, changed);
   }

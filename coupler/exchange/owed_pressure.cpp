@@ -12,7 +12,7 @@ namespace demvof {
 
 void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
                         const CellValues<BulkParticles>& particles, double window) {
-  told_ = {};
+  seen_ = {};
   heard_.clear();
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
     const CellId cell = fluid.cells[i];
@@ -22,13 +22,13 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
     const Vec3 given = -(here->solid_volume * window) * gradient;
     heard_[cell] = {here->solid_volume, gradient};
     open_[cell] -= given;
-    told_ += given;
+    seen_ += given;
     const auto owed = owed_.find(cell);
     if (owed == owed_.end()) continue;
     const Vec3 part = 0.5 * relaxation[i] * owed->second.impulse;
     gradient -= part / (here->solid_volume * window);
     owed->second.impulse -= part;
-    told_ += part;
+    seen_ += part;
   }
 }
 

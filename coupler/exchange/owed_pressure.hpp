@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Momentum of the pressure, between a fluid that knows it when the window is done and particles that are told
+// Momentum of the pressure, between a fluid that knows it when the window is done and particles that are seen
 // of it when it begins.
 //
-//   O += left + g (V_e - V_s) dt_w - told
+//   O += left + g (V_e - V_s) dt_w - seen
 //
 //     left  what the fluid's equation left to the particles of a bulk cell in the window, -sum of dt (1 -
 //     eps) V
 //           grad p, N s;  g: over the sum of dt (1 - eps) V, the mean gradient
-//     told  what they were given, -V_s grad p_told dt_w, V_s: their volume when it was told
+//     seen  what they were given, -V_s grad p_seen dt_w, V_s: their volume when it was seen
 //     V_e   mean of V_s over the fluid's steps, by the void fraction that moves on in the window
 //
-//   grad p_told = grad p - eta O/(V_s dt_w),   eta = omega/2
+//   grad p_seen = grad p - eta O/(V_s dt_w),   eta = omega/2
 //
-// The particles are given the pressure of where they were when it was told. -g (V_e - V_s) dt_w was left
+// The particles are given the pressure of where they were when it was seen. -g (V_e - V_s) dt_w was left
 // where they were not, and the fluid of the cell gets it back: owed to those who come there, it would pull a
 // single sphere back by 1 % of its weight.
 //
 // So what one side loses the other gets, a window or some later. grad p is relaxed (relaxation.hpp) with
 // omega where fluid and particles push each other about; returned faster than that the difference would undo
-// it. With a pressure that answers the particles as -mu grad p_told both together are stable while 4 - 3 a +
+// it. With a pressure that answers the particles as -mu grad p_seen both together are stable while 4 - 3 a +
 // a eta > 0, a = omega (1 + mu), and the relaxation keeps a below 1.2.
 
 #include <map>
@@ -58,7 +58,7 @@ class OwedPressure {
   /// Sums, N s: owed at the end of a window, what is on its way back to the fluid included; told in it; and
   /// gone back to the fluid in it: a concurrent fluid gets in its next window what particles have left.
   Vec3 owed_in_all() const;
-  const Vec3& told() const { return told_; }
+  const Vec3& seen() const { return seen_; }
   const Vec3& returned() const { return returned_; }
   /// Sum over the cells of the size of what was returned, N s: it may cancel.
   double turnover() const { return turnover_; }
@@ -74,14 +74,14 @@ class OwedPressure {
 
  private:
   std::map<CellId, LeftOver::Owed> owed_;
-  struct Told {
+  struct Seen {
     double solid_volume = 0;  // m3
     Vec3 gradient;            // without what was owed, Pa/m
   };
-  std::map<CellId, Told> heard_;      // by whom, in this window
+  std::map<CellId, Seen> heard_;      // by whom, in this window
   std::map<CellId, Vec3> open_;       // of this window: left less told so far, N s
   std::map<CellId, Vec3> elsewhere_;  // left where they were not, N s
-  Vec3 told_, returned_, on_its_way_;
+  Vec3 seen_, returned_, on_its_way_;
   double turnover_ = 0, turnover_on_its_way_ = 0;
 };
 

@@ -12,7 +12,7 @@
 //   -s (2 + s)                              where drag rules (K dt >> eps_s rho_p)
 //
 // so that beds of light particles, and dense beds in windows longer than their particles' response, grow
-// without bound. Told the relaxed fluid q_told += omega (q - q_told) instead, q = u, grad p, Du/Dt,
+// without bound. Told the relaxed fluid q_seen += omega (q - q_seen) instead, q = u, grad p, Du/Dt,
 //
 //   staggered    omega = min(1, 1.2/(1 + G))
 //   concurrent   omega = min(1, 1/(0.3 + 0.8 min(A, 2) + 3 G)),   A = K_eff dt/(eps rho)

@@ -30,7 +30,7 @@ Link::Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
     : world_(world),
       mine_(bulk_cells, world.size()),
       theirs_(bulk_cells, world.partner_size()),
-      patience_(world, time_out_seconds) {
+      waiting_(world, time_out_seconds) {
   if (world.partner_size() == 0)
     throw InputError(
         fmt::format("{} was started without {}.\n"
@@ -57,7 +57,7 @@ void Link::post(int to, int tag, Words message) {
 Link::Words Link::take(int from, int tag, const char* what) {
   MPI_Message message;
   MPI_Status status;
-  statistics_.waiting_seconds += patience_.wait(
+  statistics_.waiting_seconds += waiting_.wait(
       [&] {
         int there = 0;
         check_mpi(MPI_Improbe(from, tag, world_.pair().partner, &there, &message, &status), "MPI_Improbe");
@@ -69,7 +69,7 @@ Link::Words Link::take(int from, int tag, const char* what) {
   Words words(count);
   MPI_Request request;
   check_mpi(MPI_Imrecv(words.data(), count, MPI_UINT64_T, &message, &request), "MPI_Imrecv");
-  patience_.wait(
+  waiting_.wait(
       [&] {
         int done = 0;
         check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test of a receive");
@@ -80,7 +80,7 @@ Link::Words Link::take(int from, int tag, const char* what) {
 }
 
 void Link::wait_for(MPI_Request& request, const char* what) {
-  statistics_.waiting_seconds += patience_.wait(
+  statistics_.waiting_seconds += waiting_.wait(
       [&] {
         int done = 0;
         check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
@@ -91,7 +91,7 @@ void Link::wait_for(MPI_Request& request, const char* what) {
 
 void Link::finish_sends() {
   if (requests_.empty()) return;
-  statistics_.waiting_seconds += patience_.wait(
+  statistics_.waiting_seconds += waiting_.wait(
       [&] {
         int done = 0;
         check_mpi(
@@ -211,7 +211,7 @@ void Link::meet_before_the_end() {
 }
 
 bool Link::agree_to_continue(Continue wish) {
-  patience_.set_up_done();
+  waiting_.set_up_done();
   if (wish == Continue::run && stop_requested()) wish = Continue::stop_requested;
   int gravest[] = {static_cast<int>(wish), in_a_hurry()};
   MPI_Request request;

@@ -12,7 +12,7 @@
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/link/exchange_plan.hpp"
 #include "coupler/link/own_world.hpp"
-#include "coupler/link/patience.hpp"
+#include "coupler/link/waiting.hpp"
 
 namespace demvof {
 
@@ -104,7 +104,7 @@ class Link {
   void meet(const char* why);
 
   /// Tells every partner rank that this side fails, without waiting for an answer, from any rank.
-  void cry_for_help(const std::string& reason) noexcept { world_.cry_for_help(reason); }
+  void signal_failure(const std::string& reason) noexcept { world_.signal_failure(reason); }
   /// The orderly end of the link, when both sides are done and have written what they want to keep:
   /// afterwards either may end, and a launcher in a hurry kills the other as soon as one has.
   void close();
@@ -128,7 +128,7 @@ class Link {
   const OwnWorld& world_;
   BulkPartition mine_, theirs_;
   std::vector<Counterpart> counterparts_;
-  Patience patience_;
+  Waiting waiting_;
   LinkStatistics statistics_;
   Continue agreement_ = Continue::run;
   // Messages under way: they are done when the partner has them.

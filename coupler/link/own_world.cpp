@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 // Between saying why a process fails and its end.
 constexpr auto time_for_the_partner = 1000ms;  // to hear of it and write its own results
-constexpr auto time_for_the_crier = 3000ms;    // to end first, so that mpirun reports its exit code
+constexpr auto time_for_the_sender = 3000ms;   // to end first, so that mpirun reports its exit code
 constexpr auto time_to_linger = 300ms;         // for the others to find the first death, not ours
 
 OwnWorld* current = nullptr;
@@ -66,10 +66,10 @@ MPI_Comm duplicate(MPI_Comm comm) {
 
 }  // namespace
 
-OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double patience, const std::filesystem::path& notes)
+OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double start_limit, const std::filesystem::path& notes)
     : side_(side), pair_(std::make_unique<Pair>()) {
   if (current) throw std::logic_error("one OwnWorld per process");
-  const StartLimit limit(side, patience);
+  const StartLimit limit(side, start_limit);
   int provided = 0;
   check_mpi(PMPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   pair_->both = duplicate(MPI_COMM_WORLD);
@@ -102,7 +102,7 @@ OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double patience, const st
   current = this;
   main_thread = std::this_thread::get_id();
   if (!notes.empty()) leave_notes_in(notes, self_);
-  pair_->alarm = std::make_unique<Alarm>(pair_->both);
+  pair_->failure_signal = std::make_unique<FailureSignal>(pair_->both);
   pair_->watch = std::make_unique<Watch>(self_, others);
   install_signal_handlers();
   on_sudden_end(sudden_end);
@@ -121,8 +121,8 @@ const Process& OwnWorld::partner(int rank) const {
   throw std::logic_error("no such partner rank");
 }
 
-void OwnWorld::cry_for_help(const std::string& reason) const noexcept {
-  pair_->alarm->cry(failure_here(side_, exit_failed, reason));
+void OwnWorld::signal_failure(const std::string& reason) const noexcept {
+  pair_->failure_signal->send(failure_here(side_, exit_failed, reason));
 }
 
 void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const {
@@ -137,13 +137,13 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
     failure.exit_code = exit_code;
   }
   leave_note(failure);
-  if (!heard) pair_->alarm->cry(failure);
+  if (!heard) pair_->failure_signal->send(failure);
   // Rank 0 passes on what others said. All ranks of a side mostly fail with the same words: rank 0 says
   // them, and the others wait for it.
   report_failure(failure, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
                  rank_ != 0 && (heard || heard_the_same(message)));
-  pair_->alarm->hold_on(1.0);
-  const auto until = std::chrono::steady_clock::now() + (heard ? time_for_the_crier : time_for_the_partner);
+  pair_->failure_signal->flush(1.0);
+  const auto until = std::chrono::steady_clock::now() + (heard ? time_for_the_sender : time_for_the_partner);
   const bool first = !heard && exit_code != exit_partner_lost;
   const auto others_end = [&] { return pair_->watch->someone_lost() || stop_requested(); };
   while (std::chrono::steady_clock::now() < until && (first || !others_end()))
@@ -157,9 +157,9 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
 bool OwnWorld::heard_the_same(const std::string& reason) const {
   for (int i = 0; i < 200; ++i) {
     try {
-      if (const auto cry = pair_->alarm->listen())
-        if (const std::string& said = cry->failure.message;
-            pair_->processes[cry->from].side == side_ && said == reason.substr(0, said.size()))
+      if (const auto notice = pair_->failure_signal->receive())
+        if (const std::string& said = notice->failure.message;
+            pair_->processes[notice->from].side == side_ && said == reason.substr(0, said.size()))
           return true;
     } catch (const std::exception&) {
       return false;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "coupler/link/alarm.hpp"
 #include "coupler/link/failure.hpp"
+#include "coupler/link/failure_signal.hpp"
 #include "coupler/link/process.hpp"
 #include "coupler/link/side.hpp"
 #include "coupler/link/watch.hpp"
@@ -28,9 +28,10 @@ namespace demvof {
 /// One per process. A program started alone, without its partner, works too.
 class OwnWorld {
  public:
-  /// patience: for the other processes to start, s; who waits longer ends the process with exit code 4. 0:
+  /// start_limit: for the other processes to start, s; who waits longer ends the process with exit code 4. 0:
   /// for ever. notes: the folder in which a failing process leaves the reason (failure.hpp); empty: none.
-  OwnWorld(int& argc, char**& argv, Side side, double patience = 0, const std::filesystem::path& notes = {});
+  OwnWorld(int& argc, char**& argv, Side side, double start_limit = 0,
+           const std::filesystem::path& notes = {});
   ~OwnWorld();  // does not finalise MPI: finalise() does, once
   OwnWorld(const OwnWorld&) = delete;
   OwnWorld& operator=(const OwnWorld&) = delete;
@@ -51,7 +52,7 @@ class OwnWorld {
   const Process& partner(int rank) const;
 
   /// Tells every other rank of the pair that this side fails, without waiting for an answer.
-  void cry_for_help(const std::string& reason) const noexcept;
+  void signal_failure(const std::string& reason) const noexcept;
   /// Ends this process before its time: says why (message), speaks the last words (failure.hpp), lets
   /// the partner hear of it, and exits with the code, without destructors. From the main thread.
   /// heard: the reason is what another rank said, to all of us.
@@ -65,7 +66,7 @@ class OwnWorld {
     MPI_Comm both = MPI_COMM_NULL;     // all ranks of both programs
     MPI_Comm partner = MPI_COMM_NULL;  // intercommunicator; null when alone
     std::vector<Process> processes;    // by rank in both
-    std::unique_ptr<Alarm> alarm;
+    std::unique_ptr<FailureSignal> failure_signal;
     std::unique_ptr<Watch> watch;
     bool in_a_hurry = false;  // a rank got SIGTERM (signals.hpp), as both sides agreed
   };

@@ -137,21 +137,21 @@ Node by_distance(const Surroundings& around, const Vec3& xi, const Vec3& spacing
 
 BulkInterpolation::BulkInterpolation(Mapping mapping, const BulkGrid& grid, const CellBlock& block,
                                      const std::vector<double>& volume, const std::vector<Vec3>& centre,
-                                     const std::vector<Piece>& pieces) {
+                                     const std::vector<Subcell>& subcells) {
   const bool boundary_check = mapping == Mapping::cell_point_face;
-  std::size_t piece = 0;
+  std::size_t subcell = 0;
   for (std::size_t fine = 0; fine < centre.size(); ++fine) {
     first_.push_back(slot_.size());
     const Index cell = grid.locate(centre[fine]);
     const int home = block.slot(block.place(cell));
-    std::size_t largest = piece;
+    std::size_t largest = subcell;
     bool at_home = false;
-    for (; piece < pieces.size() && pieces[piece].fine == static_cast<int>(fine); ++piece) {
-      if (pieces[piece].volume > pieces[largest].volume) largest = piece;
-      at_home |= pieces[piece].slot == home;
+    for (; subcell < subcells.size() && subcells[subcell].fine == static_cast<int>(fine); ++subcell) {
+      if (subcells[subcell].volume > subcells[largest].volume) largest = subcell;
+      at_home |= subcells[subcell].slot == home;
     }
     if (!at_home) {  // the centre of a cell that is not convex
-      slot_.push_back(pieces[largest].slot);
+      slot_.push_back(subcells[largest].slot);
       weight_.push_back(1);
       continue;
     }

@@ -32,11 +32,11 @@ inline bool interpolates(Mapping mapping) {
 class BulkInterpolation {
  public:
   BulkInterpolation() = default;
-  /// block: marks the bulk cells, with their slots; all 26 neighbours of a cell that holds a piece are in it.
-  /// volume: of the fluid in each slot, m3. centre: of the fine cells, m; pieces: of these fine cells.
+  /// block: marks the bulk cells, with their slots; all 26 neighbours of a cell that holds a subcell are in
+  /// it. volume: of the fluid in each slot, m3. centre: of the fine cells, m; subcells: of these fine cells.
   BulkInterpolation(Mapping mapping, const BulkGrid& grid, const CellBlock& block,
                     const std::vector<double>& volume, const std::vector<Vec3>& centre,
-                    const std::vector<Piece>& pieces);
+                    const std::vector<Subcell>& subcells);
 
   /// means: slots x width. Returns fine cells x width.
   std::vector<double> evaluate(const std::vector<double>& means, int width) const;

@@ -15,7 +15,7 @@ namespace {
 constexpr double overlap_tolerance = 1e-9;
 // A cell that fills its bounding box to this fraction is a box.
 constexpr double box_tolerance = 1e-10;
-constexpr double smallest_piece = 1e-12;  // of the cell's volume
+constexpr double smallest_subcell = 1e-12;  // of the cell's volume
 
 /// Bulk cells that a fine cell overlaps: indices first..last per axis. Periodic axes may run over the ends.
 struct Range {
@@ -146,7 +146,7 @@ class Cutter {
       const double low = grid_.lower()[axis] + ijk[axis] * grid_.spacing()[axis];
       centroid[axis] = std::clamp(centroid[axis], low, low + grid_.spacing()[axis]);
     }
-    cut_.pieces.push_back({fine, -1, volume, centroid, offset});
+    cut_.subcells.push_back({fine, -1, volume, centroid, offset});
     cut_.bulk.push_back(grid_.id(ijk));
   }
 
@@ -154,14 +154,14 @@ class Cutter {
     double sum = 0;
     Vec3 moment;
     for (std::size_t place = 0; place < parts.volume.size(); ++place) {
-      if (!(parts.volume[place] > smallest_piece * volume)) continue;
+      if (!(parts.volume[place] > smallest_subcell * volume)) continue;
       sum += parts.volume[place];
       moment += parts.moment[place];
     }
     const Vec3 middle = moment / sum;
     for_each_cell(parts.range, [&](const std::array<int, 3>& ijk) {
       const double part = parts.volume[parts.place(ijk)];
-      if (!(part > smallest_piece * volume)) return;
+      if (!(part > smallest_subcell * volume)) return;
       const Vec3 centroid = parts.moment[parts.place(ijk)] / part;
       add(fine, ijk, part * (volume / sum), centroid, centroid - middle);
     });
@@ -181,7 +181,7 @@ bool is_box(double volume, const Vec3& extent) {
 
 CutMesh cut_mesh(const BulkGrid& grid, const FineMesh& mesh, Mapping mapping) {
   CutMesh cut;
-  cut.pieces.reserve(mesh.volume.size());
+  cut.subcells.reserve(mesh.volume.size());
   cut.bulk.reserve(mesh.volume.size());
   Cutter cutter(grid, cut);
   Parts parts;

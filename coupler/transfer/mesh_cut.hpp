@@ -22,9 +22,9 @@ struct FineMesh {
   std::function<Polyhedron(int cell)> shape;  // called only for cells that straddle bulk cells
 };
 
-/// One piece: the part of a fine cell that lies in a bulk cell. The volumes of the pieces of a fine
+/// One subcell: the part of a fine cell that lies in a bulk cell. The volumes of the subcells of a fine
 /// cell add up to its volume to round-off.
-struct Piece {
+struct Subcell {
   int fine;       // fine cell
   int slot;       // index into Remap::cells().cells()
   double volume;  // m3
@@ -32,10 +32,10 @@ struct Piece {
   Vec3 offset;    // of the centroid from that of the whole fine cell, m; sum of volume * offset is 0
 };
 
-/// The pieces of a rank's fine cells, in the order of the fine cells, before slots are known.
+/// The subcells of a rank's fine cells, in the order of the fine cells, before slots are known.
 struct CutMesh {
-  std::vector<Piece> pieces;  // slot not yet filled
-  std::vector<CellId> bulk;   // bulk cell of each piece
+  std::vector<Subcell> subcells;  // slot not yet filled
+  std::vector<CellId> bulk;       // bulk cell of each subcell
 };
 
 /// Cuts fine cells along the planes of the bulk grid. What lies outside the grid belongs to the nearest
@@ -43,7 +43,7 @@ struct CutMesh {
 /// Mapping::nearest: cells stay whole, in the bulk cell of their centre. All others cut.
 ///
 /// Cells inside one bulk cell and axis-aligned boxes are exact to round-off; other shapes are split into
-/// tetrahedra (cell centre, mean of the face's corners, edge), which is exact for plane faces. The pieces
+/// tetrahedra (cell centre, mean of the face's corners, edge), which is exact for plane faces. The subcells
 /// are scaled so that they add up to the volume given. Parts below 1e-12 of a cell are left out.
 CutMesh cut_mesh(const BulkGrid& grid, const FineMesh& mesh, Mapping mapping);
 

@@ -11,7 +11,7 @@ namespace {
 struct FluidDomain {
   double volume = 0;  // m3
   Vec3 moment;        // volume * (centroid - centre of the bulk cell), m4
-  double pieces = 0;
+  double subcells = 0;
 };
 
 /// All cells within one step of the given ones, as a block with those marked.
@@ -63,7 +63,7 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
 Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, const FineMesh& mesh,
              Mapping to_fine, Overlap overlap)
     : cells_(world, partition, overlap.cells),
-      pieces_(std::move(overlap.cut.pieces)),
+      subcells_(std::move(overlap.cut.subcells)),
       interpolates_(interpolates(to_fine)) {
   inverse_volume_.reserve(mesh.volume.size());
   for (const double volume : mesh.volume) inverse_volume_.push_back(1.0 / volume);
@@ -72,38 +72,38 @@ Remap::Remap(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partitio
   std::vector<FluidDomain> domain(cells.size());
   int slot = -1;
   Vec3 centre;
-  for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    Piece& piece = pieces_[p];
+  for (std::size_t p = 0; p < subcells_.size(); ++p) {
+    Subcell& subcell = subcells_[p];
     if (p == 0 || overlap.cut.bulk[p] != overlap.cut.bulk[p - 1]) {
       const std::array<int, 3> ijk = grid.ijk(overlap.cut.bulk[p]);
       slot = overlap.block.slot(overlap.block.place(ijk));
       centre = grid.cell_centre(ijk);
     }
-    piece.slot = slot;
-    straddles_ |= p > 0 && pieces_[p - 1].fine == piece.fine;
-    domain[slot].volume += piece.volume;
-    domain[slot].moment += piece.volume * (piece.centroid - centre);
-    domain[slot].pieces += 1;
+    subcell.slot = slot;
+    straddles_ |= p > 0 && subcells_[p - 1].fine == subcell.fine;
+    domain[slot].volume += subcell.volume;
+    domain[slot].moment += subcell.volume * (subcell.centroid - centre);
+    domain[slot].subcells += 1;
   }
   std::vector<int> has_slope;
   slope_of_.assign(cells.size(), -1);
   std::vector<char> here(cells.size());
-  for (std::size_t s = 0; s < cells.size(); ++s) here[s] = domain[s].pieces > 0;
+  for (std::size_t s = 0; s < cells.size(); ++s) here[s] = domain[s].subcells > 0;
 
   domain = cells_.fetch_from_owners(cells_.sum_to_owners(domain), FluidDomain{});
   for (std::size_t s = 0; s < cells.size(); ++s) {
     const Vec3 middle = grid.cell_centre(grid.ijk(cells[s]));
     bulk_volume_.push_back(domain[s].volume);
     bulk_centroid_.push_back(domain[s].volume > 0 ? middle + domain[s].moment / domain[s].volume : middle);
-    // A single piece has its centroid where the bulk cell has it: a slope would change nothing.
-    if (to_fine == Mapping::conservative && here[s] && domain[s].pieces > 1) {
+    // A single subcell has its centroid where the bulk cell has it: a slope would change nothing.
+    if (to_fine == Mapping::conservative && here[s] && domain[s].subcells > 1) {
       slope_of_[s] = static_cast<int>(has_slope.size());
       has_slope.push_back(static_cast<int>(s));
     }
   }
   slopes_ = LimitedSlopes(grid, cells, overlap.block, bulk_volume_, bulk_centroid_, has_slope);
   if (interpolates_)
-    interpolation_ = BulkInterpolation(to_fine, grid, overlap.block, bulk_volume_, mesh.centre, pieces_);
+    interpolation_ = BulkInterpolation(to_fine, grid, overlap.block, bulk_volume_, mesh.centre, subcells_);
 }
 
 std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width,
@@ -116,29 +116,29 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width,
   const std::vector<Vec3> slopes = slopes_.evaluate(means, width);
 
   std::vector<double> fine(inverse_volume_.size() * width, 0.0);
-  for (const Piece& piece : pieces_) {
-    const double share = piece.volume * inverse_volume_[piece.fine];
-    const double* mean = &means[std::size_t(piece.slot) * width];
-    double* value = &fine[std::size_t(piece.fine) * width];
+  for (const Subcell& subcell : subcells_) {
+    const double share = subcell.volume * inverse_volume_[subcell.fine];
+    const double* mean = &means[std::size_t(subcell.slot) * width];
+    double* value = &fine[std::size_t(subcell.fine) * width];
     for (int m = 0; m < width; ++m) value[m] += share * mean[m];
-    if (slope_of_[piece.slot] < 0 || (!flat.empty() && flat[piece.slot])) continue;
-    const Vec3 offset = share * (piece.centroid - bulk_centroid_[piece.slot]);
-    const Vec3* slope = &slopes[std::size_t(slope_of_[piece.slot]) * width];
+    if (slope_of_[subcell.slot] < 0 || (!flat.empty() && flat[subcell.slot])) continue;
+    const Vec3 offset = share * (subcell.centroid - bulk_centroid_[subcell.slot]);
+    const Vec3* slope = &slopes[std::size_t(slope_of_[subcell.slot]) * width];
     for (int m = 0; m < width; ++m) value[m] += dot(slope[m], offset);
   }
   return fine;
 }
 
-std::vector<double> Remap::rises(const std::vector<Piece>& pieces, const std::vector<double>& means,
+std::vector<double> Remap::rises(const std::vector<Subcell>& subcells, const std::vector<double>& means,
                                  int width) const {
   const std::vector<Vec3> slopes = slopes_.gradients(means, width);
-  std::vector<double> rise(pieces.size() * width, 0.0);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
-    if (slope_of_[piece.slot] < 0) continue;
-    const Vec3* slope = &slopes[std::size_t(slope_of_[piece.slot]) * width];
+  std::vector<double> rise(subcells.size() * width, 0.0);
+  for (std::size_t i = 0; i < subcells.size(); ++i) {
+    const Subcell& subcell = subcells[i];
+    if (slope_of_[subcell.slot] < 0) continue;
+    const Vec3* slope = &slopes[std::size_t(slope_of_[subcell.slot]) * width];
     for (int m = 0; m < width; ++m)
-      rise[i * width + m] = dot(slope[m], piece.centroid - bulk_centroid_[piece.slot]);
+      rise[i * width + m] = dot(slope[m], subcell.centroid - bulk_centroid_[subcell.slot]);
   }
   return rise;
 }
@@ -147,14 +147,14 @@ std::vector<double> Remap::partial_sums(const std::vector<double>& fine, int wid
                                         const std::vector<double>& weight,
                                         const std::vector<Vec3>& gradient) const {
   std::vector<double> sums(bulk_volume_.size() * width, 0.0);
-  for (const Piece& piece : pieces_) {
-    const double amount = weight.empty() ? piece.volume : piece.volume * weight[piece.fine];
-    const double* value = &fine[std::size_t(piece.fine) * width];
-    double* sum = &sums[std::size_t(piece.slot) * width];
+  for (const Subcell& subcell : subcells_) {
+    const double amount = weight.empty() ? subcell.volume : subcell.volume * weight[subcell.fine];
+    const double* value = &fine[std::size_t(subcell.fine) * width];
+    double* sum = &sums[std::size_t(subcell.slot) * width];
     for (int m = 0; m < width; ++m) sum[m] += amount * value[m];
     if (gradient.empty()) continue;
-    const Vec3* slope = &gradient[std::size_t(piece.fine) * width];
-    for (int m = 0; m < width; ++m) sum[m] += amount * dot(slope[m], piece.offset);
+    const Vec3* slope = &gradient[std::size_t(subcell.fine) * width];
+    for (int m = 0; m < width; ++m) sum[m] += amount * dot(slope[m], subcell.offset);
   }
   return sums;
 }

@@ -19,9 +19,9 @@ namespace demvof {
 ///                   conservative  linear with limited slopes; keeps the integral
 ///                   others        interpolated to the fine cells' centres (bulk_interpolation.hpp); does not
 /// mapping.to_bulk   nearest       fine cells stay whole, in the bulk cell of their centre
-///                   others        fine cells are cut into pieces along the bulk grid, exactly
+///                   others        fine cells are cut into subcells along the bulk grid, exactly
 ///
-/// With `nearest` for both this is the paper's MAP. Sums over pieces keep the integral with every mapping.
+/// With `nearest` for both this is the paper's MAP. Sums over subcells keep the integral with every mapping.
 ///
 /// Construction is collective over the communicator of the fluid side; the calls after it are local.
 class Remap {
@@ -32,7 +32,7 @@ class Remap {
   /// Bulk cells that this rank's fine cells overlap, and all cells around these (faces, edges, corners).
   const TouchedCells& cells() const { return cells_; }
   /// In the order of the fine cells.
-  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<Subcell>& subcells() const { return subcells_; }
   /// Fluid domain volume of each touched bulk cell (over all ranks), m3; 0 outside the mesh.
   const std::vector<double>& bulk_volume() const { return bulk_volume_; }
   /// Centroid of that domain, m; the cell's centre outside the mesh.
@@ -41,23 +41,23 @@ class Remap {
   /// Density field on the fine cells from cell totals on the bulk grid (per unit volume).
   /// totals[slot*width + m]: extensive amounts per touched bulk cell, the same on every rank that touches
   /// the cell; returns fine cells x width. Over all ranks, sum over fine cells of V * result = sum of
-  /// totals, and the pieces of each bulk cell receive exactly its total, to round-off. Totals of cells
+  /// totals, and the subcells of each bulk cell receive exactly its total, to round-off. Totals of cells
   /// without fluid (bulk_volume 0) are not given to anybody. An interpolating mapping keeps none of these
   /// sums. Mapping::conservative: second order for smooth data; no value outside the range of the means in
   /// the bulk cell and the cells around it, so that totals >= 0 give a result >= 0.
-  /// flat: per touched bulk cell, not 0: its pieces get its mean (conservative); empty: nowhere.
+  /// flat: per touched bulk cell, not 0: its subcells get its mean (conservative); empty: nowhere.
   std::vector<double> to_fine(const std::vector<double>& totals, int width,
                               const std::vector<char>& flat = {}) const;
 
-  /// Of fields on the bulk cells (slots x width), how much each of some pieces is above its bulk cell's mean
-  /// (pieces x width) by the mean slope of the cells around, not limited. 0 where a bulk cell is a single
-  /// piece, and with other mappings than conservative.
-  std::vector<double> rises(const std::vector<Piece>& pieces, const std::vector<double>& means,
+  /// Of fields on the bulk cells (slots x width), how much each of some subcells is above its bulk cell's
+  /// mean (subcells x width) by the mean slope of the cells around, not limited. 0 where a bulk cell is a
+  /// single subcell, and with other mappings than conservative.
+  std::vector<double> rises(const std::vector<Subcell>& subcells, const std::vector<double>& means,
                             int width) const;
 
-  /// This rank's part of sum over pieces of volume * weight_fine * value_piece, per touched bulk cell
+  /// This rank's part of sum over subcells of volume * weight_fine * value_subcell, per touched bulk cell
   /// (cells x width). The caller sums over ranks with cells().sum_to_owners.
-  ///   value_piece = value_fine + gradient_fine . offset of the piece
+  ///   value_subcell = value_fine + gradient_fine . offset of the subcell
   /// fine: fine cells x width; weight: per fine cell, or empty for 1; gradient: fine cells x width, or empty
   /// for 0. The sum over all bulk cells does not depend on the gradient; with it, each is of second order.
   std::vector<double> partial_sums(const std::vector<double>& fine, int width,
@@ -77,7 +77,7 @@ class Remap {
         Mapping to_fine, Overlap overlap);
 
   TouchedCells cells_;
-  std::vector<Piece> pieces_;
+  std::vector<Subcell> subcells_;
   std::vector<double> inverse_volume_;  // of the fine cells, 1/m3
   std::vector<double> bulk_volume_;
   std::vector<Vec3> bulk_centroid_;  // of the fluid domain in each touched bulk cell, m

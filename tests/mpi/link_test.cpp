@@ -213,7 +213,7 @@ TEST(Handshake, NumbersOfBulkCellsMustAgree) {
   link.close();
 }
 
-TEST(Patience, WaitingCostsNoCore) {
+TEST(Waiting, WaitingCostsNoCore) {
   Link link(world(), 600, time_out);
   test::meet();
   constexpr double pause = 2;
@@ -232,7 +232,7 @@ TEST(Patience, WaitingCostsNoCore) {
   link.close();
 }
 
-TEST(Patience, TimeOutSaysWhoWaitsForWhat) {
+TEST(Waiting, TimeOutSaysWhoWaitsForWhat) {
   Link link(world(), 600, on_fluid_side() ? 0.3 : time_out);
   link.agree_to_continue(Continue::run);  // before the end of the first window signs of life count, too
   if (on_fluid_side()) {
@@ -249,12 +249,12 @@ TEST(Patience, TimeOutSaysWhoWaitsForWhat) {
   link.close();
 }
 
-TEST(Patience, AFailingRankIsHeardByTheOthers) {
+TEST(Waiting, AFailingRankIsHeardByTheOthers) {
   Link link(world(), 600, time_out);
   test::meet();
-  const bool cries = !on_fluid_side() && world().rank() == world().size() - 1;
-  if (cries) {
-    link.cry_for_help("the beads have left the box");
+  const bool fails = !on_fluid_side() && world().rank() == world().size() - 1;
+  if (fails) {
+    link.signal_failure("the beads have left the box");
   } else if (on_fluid_side()) {
     try {
       link.receive<BulkParticles>();

@@ -91,8 +91,8 @@ TEST(RemapOrders, BoxesThatDoNotNest) {
   EXPECT_GT(found.at("to_fine").mean, 1.9);
   EXPECT_GT(found.at("to_fine").largest, 1.9);
   EXPECT_GT(found.at("to_fine at a minimum").largest, 1.8);
-  // Of first order: fine data are constant in a cell, so that all pieces of a cell that straddles bulk cells
-  // have its mean.
+  // Of first order: fine data are constant in a cell, so that all subcells of a cell that straddles bulk
+  // cells have its mean.
   EXPECT_GT(found.at("to_bulk").mean, 0.9);
 }
 

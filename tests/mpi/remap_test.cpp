@@ -97,7 +97,7 @@ TEST(Remap, LinearFieldsComeBackExactlyAwayFromTheBoundary) {
   }
 }
 
-TEST(Remap, PartialSumsWeighPiecesByVolumeAndWeight) {
+TEST(Remap, PartialSumsWeighSubcellsByVolumeAndWeight) {
   const Case c = unaligned(4);
   const Spread s(MPI_COMM_WORLD, c);
   std::vector<double> values, weight;

@@ -17,7 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, POURED, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "particle_injection", "carried", "extremes"))
-OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_told_fluid$": ["unit_told_fluid"]}
+OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
 FAULTS = [
@@ -60,7 +60,7 @@ FAULTS = [
      "outside.held = particles.held_impulse", EXCHANGE),
     ("coupler/exchange/support.hpp", "counts_as_held * norm(cell.contact) / asked",
      "counts_as_held * asked / norm(cell.contact)", FORCES),
-    ("coupler/exchange/told_fluid.cpp", "reference += free_share(cell) *",
+    ("coupler/exchange/seen_fluid.cpp", "reference += free_share(cell) *",
      "reference -= free_share(cell) *", {**OWED, **SHEAR}),
     ("coupler/exchange/owed_pressure.cpp", "not_theirs = moved * step / exposed * impulse;",
      "not_theirs = {};", OWED),

@@ -125,7 +125,8 @@ struct Spread {
   /// Cell totals of a field: its integral over the fluid domain of each bulk cell, exact for linear fields.
   std::vector<double> totals(const Field& field) const {
     std::vector<double> partial(remap.cells().cells().size());
-    for (const Piece& piece : remap.pieces()) partial[piece.slot] += piece.volume * field(piece.centroid);
+    for (const Subcell& subcell : remap.subcells())
+      partial[subcell.slot] += subcell.volume * field(subcell.centroid);
     return summed(partial);
   }
   /// 1 for touched bulk cells whose 26 neighbours exist and lie inside the mesh, as far as corners tell.
@@ -150,7 +151,7 @@ struct Spread {
                     const std::function<bool(const Vec3&)>& in_mesh) const {
     std::vector<char> counts(fine.size(), 1);
     const std::vector<char> in = inner(in_mesh);
-    for (const Piece& piece : remap.pieces()) counts[piece.fine] &= in[piece.slot];
+    for (const Subcell& subcell : remap.subcells()) counts[subcell.fine] &= in[subcell.slot];
     Error error;
     double volume = 0;
     for (std::size_t cell = 0; cell < fine.size(); ++cell)

@@ -137,9 +137,9 @@ TEST(Books, MomentumOfEverything) {
   outside.carried_in = {0, 0, 0.5};
   outside.surface_tension = {0, 0.25, 0};
   const Vec3 left = r.particles.pressure_impulse + Vec3{0, 0, 0.75};
-  r.fluid.told_pressure =
+  r.fluid.seen_pressure =
       r.particles.pressure_impulse + Vec3{0, 0, 0.5};  // the particles got too little of it
-  r.fluid.owed_pressure = left - r.fluid.told_pressure;
+  r.fluid.owed_pressure = left - r.fluid.seen_pressure;
   r.fluid.momentum = Vec3{1, 0, 0} + r.fluid.explicit_impulse + r.fluid.implicit_impulse +
                      outside.fluid_weight + outside.boundary_pressure - left + outside.boundary_shear +
                      outside.carried_in + outside.surface_tension;

@@ -28,19 +28,19 @@ const std::vector<double> drag_factors = {1e-3, 1e-2, 0.1, 0.5, 1, 1.9, 2.1, 5, 
 const std::vector<double> mass_loadings = {1e-4, 1e-3, 1e-2, 0.1, 0.8, 1.25, 10, 1e2, 1e3, 1e4};
 const std::vector<double> held_fractions = {0, 0.1, 0.5, 0.9, 1};
 
-enum { u, v, m, j, felt, told, unknowns };
+enum { u, v, m, j, felt, seen, unknowns };
 /// u: fluid, v: free particles, m/s; m: left-over owed to the particles, N s; told: the fluid velocity that
 /// the particles are told for the coming window, m/s. Of the particles' last window: j, the drag impulse, N
 /// s, and felt, the fluid velocity they felt, m/s.
 using State = std::array<double, unknowns>;
 
 /// The fluid that particles are told: relaxed as the programs do, or as it is.
-enum class Told { relaxed, as_is };
+enum class Seen { relaxed, as_is };
 
 struct Cell {
   ExchangeScheme scheme;
   Schedule schedule;
-  Told tell;
+  Seen tell;
   double drag_factor, mass_loading, held;
   int fluid_steps = 1;
   double exponent = 1, support = 1;
@@ -65,13 +65,13 @@ struct Cell {
     State next = now;
     double drag_free = 0;
     if (held < 1) {
-      const double target = now[told] + left_over_free / free_drag();
+      const double target = now[seen] + left_over_free / free_drag();
       next[v] = target + (now[v] - target) * std::exp(-free_drag() / free_mass());
       drag_free = free_mass() * (next[v] - now[v]) - left_over_free;
     }
-    const double drag_held = held_drag() * now[told];
+    const double drag_held = held_drag() * now[seen];
     next[j] = drag_free + drag_held;
-    next[felt] = now[told];
+    next[felt] = now[seen];
 
     // The fluid's window: with what the particles did in it, or in the one before.
     const State& of_particles = schedule == Schedule::staggered ? next : now;
@@ -89,8 +89,8 @@ struct Cell {
     }
     next[m] = hands_back_left_over(scheme) ? -implicit : 0;
     const double response = hands_back_left_over(scheme) ? drag_response() * window : 0;
-    const double omega = tell == Told::relaxed ? relaxation_factor(schedule, 0, response) : 1;
-    next[told] = now[told] + omega * (next[u] - now[told]);
+    const double omega = tell == Seen::relaxed ? relaxation_factor(schedule, 0, response) : 1;
+    next[seen] = now[seen] + omega * (next[u] - now[seen]);
     if (books) {
       books->drag_to_particles.x = next[j];
       books->left_over_to_particles.x = now[m];
@@ -116,13 +116,13 @@ struct Cell {
 /// The fluid after some windows from a slip of 1.
 double fluid_after(int windows, const Cell& cell) {
   State state{};
-  state[u] = state[told] = 1;
+  state[u] = state[seen] = 1;
   for (int n = 0; n < windows; ++n) state = cell.advance(state);
   return state[u];
 }
 
 template <class Visit>
-void for_all_cells(ExchangeScheme scheme, Schedule schedule, Told tell, Visit visit) {
+void for_all_cells(ExchangeScheme scheme, Schedule schedule, Seen tell, Visit visit) {
   for (const double held : held_fractions)
     for (const double drag_factor : drag_factors)
       for (const double mass_loading : mass_loadings)
@@ -134,7 +134,7 @@ void for_all_cells(ExchangeScheme scheme, Schedule schedule, Told tell, Visit vi
 }
 template <class Visit>
 void for_all_cells(ExchangeScheme scheme, Schedule schedule, Visit visit) {
-  for_all_cells(scheme, schedule, Told::relaxed, visit);
+  for_all_cells(scheme, schedule, Seen::relaxed, visit);
 }
 
 class ExchangeStability : public testing::TestWithParam<Schedule> {};
@@ -168,7 +168,7 @@ TEST_P(ExchangeStability, ConservativeImplicitIsStableForAnyDragLawAndSupport) {
 // window to window, with the other sign, and grows where not all of what holds is seen; the tangent leaves
 // nothing of it.
 TEST(ExchangeTangent, IsWhatTheFluidAnswersTo) {
-  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Told::as_is, 1e4, 0.01, 1};
+  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Seen::as_is, 1e4, 0.01, 1};
   cell.exponent = cell.counted_exponent = 2;
   EXPECT_LT(std::abs(fluid_after(2, cell)), 1e-7);
   cell.counted_exponent = 1;
@@ -180,16 +180,16 @@ TEST(ExchangeTangent, IsWhatTheFluidAnswersTo) {
 
 // A bed so near lift-off that its contacts are seen to hold three tenths: not cured (docs/stability.md).
 TEST(ExchangeSupport, StiffBedsHeldButSeenToLessThanHalfGrow) {
-  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Told::relaxed, 1e4, 1e-2, 1};
+  Cell cell{ExchangeScheme::conservative_implicit, Schedule::staggered, Seen::relaxed, 1e4, 1e-2, 1};
   cell.support = 0.3;
   EXPECT_GT(cell.growth(), 2);
 }
 
-// Told the fluid as it is, free particles that outweigh it swing with a window of lag.
+// Seen the fluid as it is, free particles that outweigh it swing with a window of lag.
 TEST(ExchangeTold, AsItIsGrowsWithAWindowOfLag) {
   int unstable = 0, all = 0;
   double fastest = 0;
-  for_all_cells(ExchangeScheme::conservative_implicit, Schedule::concurrent, Told::as_is,
+  for_all_cells(ExchangeScheme::conservative_implicit, Schedule::concurrent, Seen::as_is,
                 [&](const Cell& cell) {
                   if (cell.held > 0 || cell.fluid_steps > 1) return;
                   ++all;
@@ -240,7 +240,7 @@ TEST(ExchangeLimits, AWindowOfLagHalvesTheLimitOfExplicit) {
 /// Runs some windows from a slip of 1; the ledger's worst errors.
 ConservationErrors books_of(const Cell& cell, int windows) {
   State state{};
-  state[u] = state[told] = 1;
+  state[u] = state[seen] = 1;
   Ledger ledger({cell.free_mass() * state[v], 0, 0}, {state[u], 0, 0}, 0);
   for (int n = 0; n < windows; ++n) {
     WindowBalance books;
@@ -268,7 +268,7 @@ TEST_P(ExchangeStability, SemiImplicitDoesNotConserveMomentum) {
 
 /// The same with free particles.
 double fluid_after(int windows, Schedule schedule, double drag_factor, double mass_loading) {
-  return fluid_after(windows, {ExchangeScheme::conservative_implicit, schedule, Told::relaxed, drag_factor,
+  return fluid_after(windows, {ExchangeScheme::conservative_implicit, schedule, Seen::relaxed, drag_factor,
                                mass_loading, 0});
 }
 

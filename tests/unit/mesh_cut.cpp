@@ -28,9 +28,10 @@ std::map<std::array<int, 3>, Part> parts_of(const BulkGrid& grid, const Polyhedr
                                             Mapping mapping = Mapping::conservative) {
   const CutMesh cut = cut_mesh(grid, fine_mesh({cell}), mapping);
   std::map<std::array<int, 3>, Part> parts;
-  for (std::size_t p = 0; p < cut.pieces.size(); ++p)
-    EXPECT_TRUE(parts.insert({grid.ijk(cut.bulk[p]), {cut.pieces[p].volume, cut.pieces[p].centroid}}).second)
-        << "two pieces of a cell in one bulk cell";
+  for (std::size_t p = 0; p < cut.subcells.size(); ++p)
+    EXPECT_TRUE(
+        parts.insert({grid.ijk(cut.bulk[p]), {cut.subcells[p].volume, cut.subcells[p].centroid}}).second)
+        << "two subcells of a cell in one bulk cell";
   return parts;
 }
 
@@ -103,7 +104,7 @@ Polyhedron prism(int n) {
   return body;
 }
 
-TEST(Pieces, ABoxIsCutIntoBoxes) {
+TEST(Subcells, ABoxIsCutIntoBoxes) {
   const auto parts = parts_of(unit_cells, box({-1.25, 0.5, 0.125}, {1.5, 0.75, 1.125}));
   ASSERT_EQ(parts.size(), 8u);  // 4 x 1 x 2 bulk cells
   const double length[] = {0.25, 1, 0.5}, height[] = {0.875, 0.125}, mid_x[] = {-1.125, -0.5, 0.5, 0.75};
@@ -115,7 +116,7 @@ TEST(Pieces, ABoxIsCutIntoBoxes) {
   expect_near(parts.at({5, 4, 5}).centroid, {1.25, 0.625, 1.0625}, 1e-14);
 }
 
-TEST(Pieces, ARotatedCubeFallsIntoEightEqualPartsAroundAGridCorner) {
+TEST(Subcells, ARotatedCubeFallsIntoEightEqualPartsAroundAGridCorner) {
   const double side = 1.2, half_diagonal = side / std::sqrt(2.0);
   const auto turn = test::rotation({1, 1, 1}, {0, 0, 1}, std::acos(-1.0) / 4);
   const Polyhedron cube = mapped(
@@ -132,7 +133,7 @@ TEST(Pieces, ARotatedCubeFallsIntoEightEqualPartsAroundAGridCorner) {
   }
 }
 
-TEST(Pieces, ATetrahedronLosesItsTipToTheNextCell) {
+TEST(Subcells, ATetrahedronLosesItsTipToTheNextCell) {
   // Apex at height 1.5 over a base at z = 0.5: the part above z = 1 is half as high, 1/8 of the volume.
   const Vec3 apex{0.2, 0.3, 1.5};
   const auto parts =
@@ -148,7 +149,7 @@ TEST(Pieces, ATetrahedronLosesItsTipToTheNextCell) {
               1e-14);
 }
 
-TEST(Pieces, ATriangularPrismAcrossAPlane) {
+TEST(Subcells, ATriangularPrismAcrossAPlane) {
   // Right triangle with legs 2 along x and 1 along y, cut at half of the long leg: 3/4 and 1/4.
   const Vec3 a{0, 0, 0.2}, b{2, 0, 0.2}, c{0, 1, 0.2}, up{0, 0, 0.5};
   const Polyhedron wedge{{{a, c, b},
@@ -164,7 +165,7 @@ TEST(Pieces, ATriangularPrismAcrossAPlane) {
   expect_near(parts.at({4, 4, 4}).centroid, {4.0 / 9, 7.0 / 18, 0.45}, 1e-14);
 }
 
-TEST(Pieces, AffineImagesOfConvexBodiesMatchIndependentClipping) {
+TEST(Subcells, AffineImagesOfConvexBodiesMatchIndependentClipping) {
   std::mt19937 random(7);
   std::uniform_real_distribution<> uniform(-1, 1);
   const Polyhedron bodies[] = {box({-1, -1, -1}, {1, 1, 1}), octahedron(), prism(3), prism(5), prism(8)};
@@ -197,7 +198,7 @@ TEST(Pieces, AffineImagesOfConvexBodiesMatchIndependentClipping) {
     }
 }
 
-TEST(Pieces, ACellThatIsNotConvexIsCutRightEvenWhenItsCentreIsOutside) {
+TEST(Subcells, ACellThatIsNotConvexIsCutRightEvenWhenItsCentreIsOutside) {
   // A U of three arms, extruded along z: the centroid lies in the gap between the arms.
   const std::vector<Vec3> u = {{-1.5, -1.5, 0},  {1.5, -1.5, 0},    {1.5, 1.5, 0},   {1.25, 1.5, 0},
                                {1.25, -1.25, 0}, {-1.25, -1.25, 0}, {-1.25, 1.5, 0}, {-1.5, 1.5, 0}};
@@ -220,14 +221,14 @@ TEST(Pieces, ACellThatIsNotConvexIsCutRightEvenWhenItsCentreIsOutside) {
   EXPECT_EQ(parts.count({4, 4, 4}), 0u);
 }
 
-TEST(Pieces, CellsOfNestedMeshesStayWholeDespiteRoundOff) {
+TEST(Subcells, CellsOfNestedMeshesStayWholeDespiteRoundOff) {
   const BulkGrid grid({0, 0, 0}, {0.2, 0.1, 0.3}, {20, 10, 30});
   const CutMesh cut = cut_mesh(grid, fine_mesh(test::hexahedra({0, 0, 0}, {0.2, 0.1, 0.3}, {60, 30, 90})),
                                Mapping::conservative);
-  EXPECT_EQ(cut.pieces.size(), std::size_t(60 * 30 * 90));
+  EXPECT_EQ(cut.subcells.size(), std::size_t(60 * 30 * 90));
 }
 
-TEST(Pieces, WhatIsOutsideTheGridGoesToTheNearestCell) {
+TEST(Subcells, WhatIsOutsideTheGridGoesToTheNearestCell) {
   const auto parts = parts_of(unit_cells, box({3.5, 4.5, -6}, {5, 5, 6}));  // boxes
   double sum = 0;
   for (const auto& [ijk, part] : parts) {
@@ -249,7 +250,7 @@ TEST(Pieces, WhatIsOutsideTheGridGoesToTheNearestCell) {
   EXPECT_NEAR(tilted.at({7, 4, 4}).volume, whole - tip, 1e-15);
 }
 
-TEST(Pieces, PeriodicDirectionsWrapPiecesAndCentroids) {
+TEST(Subcells, PeriodicDirectionsWrapSubcellsAndCentroids) {
   const BulkGrid grid({0, 0, 0}, {4, 4, 4}, {4, 4, 4}, {true, true, true});
   const auto straight = parts_of(grid, box({3.5, 0.25, -0.25}, {4.25, 0.75, 0.5}));
   ASSERT_EQ(straight.size(), 4u);
@@ -264,7 +265,7 @@ TEST(Pieces, PeriodicDirectionsWrapPiecesAndCentroids) {
   expect_near(round.at({0, 3, 0}).centroid, {0.15, 3.85, 0.15}, 1e-14);
 }
 
-TEST(Pieces, NearestKeepsCellsWhole) {
+TEST(Subcells, NearestKeepsCellsWhole) {
   const auto parts = parts_of(unit_cells,
                               mapped(octahedron(),
                                      [](const Vec3& x) {

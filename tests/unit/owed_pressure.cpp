@@ -31,11 +31,11 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
   OwedPressure owed;
   double given = 0, left = 0;
   for (int n = 0; n < 60; ++n) {
-    CellValues<BulkFluid> told = fluid(-4);
-    owed.tell(told, {1, 1}, particles(2), window);
-    EXPECT_EQ(told.values[1].pressure_gradient.z, -4) << "no particles";
-    given -= 2 * window * told.values[0].pressure_gradient.z;
-    EXPECT_NEAR(owed.told().z, -2 * window * told.values[0].pressure_gradient.z, 1e-14);
+    CellValues<BulkFluid> seen = fluid(-4);
+    owed.tell(seen, {1, 1}, particles(2), window);
+    EXPECT_EQ(seen.values[1].pressure_gradient.z, -4) << "no particles";
+    given -= 2 * window * seen.values[0].pressure_gradient.z;
+    EXPECT_NEAR(owed.seen().z, -2 * window * seen.values[0].pressure_gradient.z, 1e-14);
     const double lost = n == 0 ? 7 : 4;  // the first window's pressure was another one
     left += lost;
     owed.collect({{3}, {{{0, 0, 0.25 * lost}, 2 * 0.25 * window, 2}}}, 0.25 * window);
@@ -48,8 +48,8 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
 
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   OwedPressure owed;
-  CellValues<BulkFluid> told = fluid(0);
-  owed.tell(told, {1, 1}, particles(2), window);
+  CellValues<BulkFluid> seen = fluid(0);
+  owed.tell(seen, {1, 1}, particles(2), window);
   owed.collect({{3}, {{{0, 0, 8}, 2 * window, 2}}}, window);
   owed.end_window(particles(2));
   CellValues<BulkParticles> fewer = particles(0.5);
@@ -73,8 +73,8 @@ TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
 TEST(OwedPressure, OwesNothingForTheWayOfTheParticles) {
   constexpr double gradient = -4;
   OwedPressure owed;
-  CellValues<BulkFluid> told = fluid(gradient);
-  owed.tell(told, {1, 1}, particles(2), window);
+  CellValues<BulkFluid> seen = fluid(gradient);
+  owed.tell(seen, {1, 1}, particles(2), window);
   for (const double there : {0.25, 1.0}) {  // after two steps, of which the second ends with nobody in cell 3
     const double step = 0.5 * window, exposed = 2 * step * (1 - there), other = 2 * step * there;
     owed.collect({{3, 5},
@@ -97,7 +97,7 @@ TEST(OwedPressure, OwesNothingForTheWayOfTheParticles) {
   EXPECT_EQ(next.values[1].pressure_gradient.z, gradient);
 }
 
-/// A pressure that answers what the particles get, grad p = s - mu grad p_told, with the relaxation that goes
+/// A pressure that answers what the particles get, grad p = s - mu grad p_seen, with the relaxation that goes
 /// with it.
 TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
   for (const double mu : {0.05, 0.2, 0.5, 1.0, 3.0, 10.0, 100.0}) {
@@ -106,9 +106,9 @@ TEST(OwedPressure, IsStableWhereFluidAndParticlesPushEachOther) {
     double pressure = -1, relaxed = -1, last = 0;
     for (int n = 0; n < 20000; ++n) {
       relaxed += omega * (pressure - relaxed);
-      CellValues<BulkFluid> told = fluid(relaxed);
-      owed.tell(told, {omega, omega}, particles(2), window);
-      last = told.values[0].pressure_gradient.z;
+      CellValues<BulkFluid> seen = fluid(relaxed);
+      owed.tell(seen, {omega, omega}, particles(2), window);
+      last = seen.values[0].pressure_gradient.z;
       pressure = -2 - mu * last;
       owed.collect({{3}, {{{0, 0, -2 * window * pressure}, 2 * window, 2}}}, window);
       owed.end_window(particles(2));

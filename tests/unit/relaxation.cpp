@@ -2,7 +2,7 @@
 
 // Particles and fluid that push each other about, in one bulk cell. Fluid of density 1, window 1, volume 1;
 // particles of density rho_p, of which the fraction `held` is held by contacts, fill eps_s. What the
-// particles do in a window is solved exactly; what the fluid gets and what they are told is what
+// particles do in a window is solved exactly; what the fluid gets and what they are seen is what
 // fluid_source() and relaxation_factor() say.
 //
 //   volume   the fluid has to make way: eps u + eps_s v = 0, v the mean over the window; its pressure
@@ -29,12 +29,12 @@ namespace {
 
 constexpr double window = 1;
 enum class Mode { volume, shear };
-enum class Told { relaxed, as_is };
+enum class Seen { relaxed, as_is };
 
-// u, v: fluid, free particles; u_told, g_told, a_told: velocity, pressure gradient, acceleration that the
+// u, v: fluid, free particles; u_seen, g_seen, a_seen: velocity, pressure gradient, acceleration that the
 // particles feel in the coming window; m: left-over owed to them. Of their last window: j, the impulse they
 // received, way, eps_s times their mean velocity, and felt, the fluid velocity.
-enum { u, v, u_told, g_told, a_told, m, j, way, felt, unknowns };
+enum { u, v, u_seen, g_seen, a_seen, m, j, way, felt, unknowns };
 using State = std::array<double, unknowns>;
 
 struct Cell {
@@ -64,17 +64,17 @@ struct Cell {
                              particles().drag_response * window / eps());
   }
 
-  State advance(const State& now, Mode mode, Told told) const {
+  State advance(const State& now, Mode mode, Seen seen) const {
     const double k = drag(), free = 1 - held;
-    const double other = -solid_fraction * now[g_told] + now[m] / window + added() * now[a_told];
-    const double target = now[u_told] + other / k;
+    const double other = -solid_fraction * now[g_seen] + now[m] / window + added() * now[a_seen];
+    const double target = now[u_seen] + other / k;
     State next = now;
     next[v] = target + (now[v] - target) * std::exp(-x);
     const double mean = target + (now[v] - target) * mean_decay(x);
-    next[j] = window * k * (now[u_told] - free * mean) +
-              added() * (window * now[a_told] - free * (next[v] - now[v]));
+    next[j] = window * k * (now[u_seen] - free * mean) +
+              added() * (window * now[a_seen] - free * (next[v] - now[v]));
     next[way] = solid_fraction * free * mean;
-    next[felt] = now[u_told];
+    next[felt] = now[u_seen];
 
     const State& of_particles = schedule == Schedule::staggered ? next : now;
     BulkParticles cell = particles();
@@ -97,16 +97,16 @@ struct Cell {
       implicit += step * source.coefficient * (source.reference_velocity.x - next[u]);
     }
     next[m] = -implicit;
-    const double omega = told == Told::relaxed ? relaxation() : 1;
-    next[u_told] += omega * (next[u] - now[u_told]);
-    next[g_told] += omega * (gradient - now[g_told]);
-    next[a_told] += omega * (acceleration - now[a_told]);
+    const double omega = seen == Seen::relaxed ? relaxation() : 1;
+    next[u_seen] += omega * (next[u] - now[u_seen]);
+    next[g_seen] += omega * (gradient - now[g_seen]);
+    next[a_seen] += omega * (acceleration - now[a_seen]);
     return next;
   }
 
   /// Growth per window in the long run.
-  double growth(Mode mode, Told told = Told::relaxed) const {
-    return growth_of<State>([&](const State& unit) { return advance(unit, mode, told); });
+  double growth(Mode mode, Seen seen = Seen::relaxed) const {
+    return growth_of<State>([&](const State& unit) { return advance(unit, mode, seen); });
   }
 };
 
@@ -178,11 +178,11 @@ TEST(Relaxation, NothingHeavyGrowsWithAWindowOfLag) {
 
 TEST(Relaxation, WithoutItBedsGrow) {
   // Where inertia rules: times R = s rho/rho_p per window, however short.
-  EXPECT_NEAR((Cell{0.6, 0.05, 1e-3}.growth(Mode::volume, Told::as_is)), 1.5 / 0.05, 20);
-  EXPECT_GT((Cell{0.6, 0.05, 1e-6}.growth(Mode::volume, Told::as_is)), 10);
+  EXPECT_NEAR((Cell{0.6, 0.05, 1e-3}.growth(Mode::volume, Seen::as_is)), 1.5 / 0.05, 20);
+  EXPECT_GT((Cell{0.6, 0.05, 1e-6}.growth(Mode::volume, Seen::as_is)), 10);
   // Where drag rules: dense beds, in windows longer than the particles' response.
-  EXPECT_GT((Cell{0.6, 2.5, 1e4}.growth(Mode::volume, Told::as_is)), 1.5);
-  EXPECT_LT((Cell{0.6, 2.5, 1e-2}.growth(Mode::volume, Told::as_is)), 1);
+  EXPECT_GT((Cell{0.6, 2.5, 1e4}.growth(Mode::volume, Seen::as_is)), 1.5);
+  EXPECT_LT((Cell{0.6, 2.5, 1e-2}.growth(Mode::volume, Seen::as_is)), 1);
 }
 
 TEST(Relaxation, LeavesDiluteAndHeavyParticlesAlone) {

@@ -21,7 +21,7 @@ class Endings(unittest.TestCase):
     def run_pair(self, *options):
         return Pair(DEMVOF, self.case_file, self.folder / "run", *options)
 
-    def check_killed(self, victim, survivor):
+    def check_killed(self, victim, fallback_results):
         pair = self.run_pair(*LONG_RUN)
         pair.wait_for_window(3)
         killed = time.monotonic()
@@ -30,7 +30,7 @@ class Endings(unittest.TestCase):
         self.assertLess(time.monotonic() - killed, 10)
         self.assertEqual(code, 4, text)
         self.assertIn(f"{victim} rank 0", text)
-        self.assertEqual(pair.pids(survivor), [], "the survivor must be gone")
+        self.assertEqual(pair.pids(fallback_results), [], "the fallback_results must be gone")
         results = pair.results()
         self.assertEqual(results["status"], "failed")
         self.assertIn(victim, results["failure"]["message"])

@@ -11,9 +11,9 @@ namespace demvof {
 
 /// foam_side writes results.json. When it is lost without having done so (killed, crashed), dem_side is
 /// the one left to tell how far the run came: this keeps what that takes.
-class Survivor {
+class FallbackResults {
  public:
-  Survivor(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world);
+  FallbackResults(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world);
 
   void start(long particles);
   void window(long windows, long dem_steps, long particles, double dem_seconds, double waiting_seconds);

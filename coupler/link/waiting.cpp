@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coupler/link/patience.hpp"
+#include "coupler/link/waiting.hpp"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -26,7 +26,7 @@ double now() {
 
 }  // namespace
 
-Patience::Patience(const OwnWorld& world, double time_out_seconds)
+Waiting::Waiting(const OwnWorld& world, double time_out_seconds)
     : world_(world), time_out_(time_out_seconds) {
   std::vector<Process> partners;
   for (const Process& process : world.pair().processes)
@@ -34,22 +34,22 @@ Patience::Patience(const OwnWorld& world, double time_out_seconds)
   set_up_.emplace(world.self(), partners);
 }
 
-Patience::Wait::Wait(Patience& patience) : patience_(patience), begin_(now()) {
-  patience_.world_.pair().watch->main_thread_waits(true);
-  if (patience_.set_up_) patience_.set_up_->silence();
+Waiting::Wait::Wait(Waiting& waiting) : waiting_(waiting), begin_(now()) {
+  waiting_.world_.pair().watch->main_thread_waits(true);
+  if (waiting_.set_up_) waiting_.set_up_->silence();
 }
 
-Patience::Wait::~Wait() {
-  patience_.world_.pair().watch->main_thread_waits(false);
+Waiting::Wait::~Wait() {
+  waiting_.world_.pair().watch->main_thread_waits(false);
 }
 
-double Patience::Wait::seconds() const {
+double Waiting::Wait::seconds() const {
   return now() - begin_;
 }
 
-bool Patience::Wait::sleep() {
-  patience_.world_.pair().watch->check();
-  patience_.listen();
+bool Waiting::Wait::sleep() {
+  waiting_.world_.pair().watch->check();
+  waiting_.throw_received();
   const double waited = seconds();
   if (waited < without_pause) {
     sched_yield();
@@ -58,22 +58,22 @@ bool Patience::Wait::sleep() {
   const double pause = std::clamp(share_of_wait * waited, shortest_pause, longest_pause);
   const timespec time{0, static_cast<long>(1e9 * pause)};
   nanosleep(&time, nullptr);  // a signal may end it early
-  return waited > patience_.time_out_ &&
-         (!patience_.set_up_ || patience_.set_up_->silence() > patience_.time_out_);
+  return waited > waiting_.time_out_ &&
+         (!waiting_.set_up_ || waiting_.set_up_->silence() > waiting_.time_out_);
 }
 
-void Patience::listen() const {
-  const auto cry = world_.pair().alarm->listen();
-  if (!cry) return;
-  const Process& crier = world_.pair().processes[cry->from];
-  heard_of(cry->failure);
+void Waiting::throw_received() const {
+  const auto notice = world_.pair().failure_signal->receive();
+  if (!notice) return;
+  const Process& sender = world_.pair().processes[notice->from];
+  heard_of(notice->failure);
   const std::string text =
-      fmt::format("{}: {} failed:\n{}", world_.self().name(), crier.name(), cry->failure.message);
-  if (crier.side == world_.side()) throw FellowFailed(text, cry->failure.exit_code);
+      fmt::format("{}: {} failed:\n{}", world_.self().name(), sender.name(), notice->failure.message);
+  if (sender.side == world_.side()) throw FellowFailed(text, notice->failure.exit_code);
   throw PartnerFailed(text);
 }
 
-void Patience::give_up(const std::string& waiting_for) const {
+void Waiting::give_up(const std::string& waiting_for) const {
   const std::string text = fmt::format(
       "{} waited {:g} s for {} ({}) and gave up.\n"
       "What to try: look whether the partner is stuck; raise coupling.time_out if its windows "

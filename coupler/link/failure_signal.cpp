@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "coupler/link/alarm.hpp"
+#include "coupler/link/failure_signal.hpp"
 
 #include <chrono>
 #include <thread>
@@ -14,7 +14,7 @@ constexpr std::size_t longest = 3000;  // short enough to leave without the rece
 
 }  // namespace
 
-void Alarm::cry(const Failure& failure) noexcept {
+void FailureSignal::send(const Failure& failure) noexcept {
   try {
     int size = 0, rank = 0;
     if (MPI_Comm_size(both_, &size) != MPI_SUCCESS || MPI_Comm_rank(both_, &rank) != MPI_SUCCESS) return;
@@ -34,19 +34,19 @@ void Alarm::cry(const Failure& failure) noexcept {
   }
 }
 
-std::optional<Alarm::Cry> Alarm::listen() {
+std::optional<FailureSignal::Notice> FailureSignal::receive() {
   int heard = 0, length = 0;
   MPI_Status status;
-  check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag, both_, &heard, &status), "MPI_Iprobe for cries");
+  check_mpi(MPI_Iprobe(MPI_ANY_SOURCE, tag, both_, &heard, &status), "MPI_Iprobe for failure notices");
   if (!heard) return std::nullopt;
-  check_mpi(MPI_Get_count(&status, MPI_CHAR, &length), "MPI_Get_count of a cry");
+  check_mpi(MPI_Get_count(&status, MPI_CHAR, &length), "MPI_Get_count of a notice");
   std::string text(length, ' ');
   check_mpi(MPI_Recv(text.data(), length, MPI_CHAR, status.MPI_SOURCE, tag, both_, MPI_STATUS_IGNORE),
-            "MPI_Recv of a cry");
-  return Cry{status.MPI_SOURCE, failure_from(text).value_or(Failure{})};
+            "MPI_Recv of a notice");
+  return Notice{status.MPI_SOURCE, failure_from(text).value_or(Failure{})};
 }
 
-void Alarm::hold_on(double seconds) noexcept {
+void FailureSignal::flush(double seconds) noexcept {
   using clock = std::chrono::steady_clock;
   const auto end = clock::now() + std::chrono::duration<double>(seconds);
   int sent = requests_.empty();

@@ -13,22 +13,22 @@
 namespace demvof {
 
 /// A word from a failing rank to every other rank of the pair.
-class Alarm {
+class FailureSignal {
  public:
-  struct Cry {
+  struct Notice {
     int from;         // rank in the pair's communicator
-    Failure failure;  // its exit code is the crier's
+    Failure failure;  // its exit code is the sender's
   };
 
   /// both: the communicator of all ranks of both programs; nothing else uses its messages' tag.
-  explicit Alarm(MPI_Comm both) : both_(both) {}
+  explicit FailureSignal(MPI_Comm both) : both_(both) {}
 
-  /// Does not wait and does not throw; hold_on gives it time to arrive.
-  void cry(const Failure& failure) noexcept;
+  /// Does not wait and does not throw; flush gives it time to arrive.
+  void send(const Failure& failure) noexcept;
   /// What was heard since the last call, if anything.
-  std::optional<Cry> listen();
-  /// Keeps MPI going until the cries are under way, at most this long.
-  void hold_on(double seconds) noexcept;
+  std::optional<Notice> receive();
+  /// Keeps MPI going until the notices are under way, at most this long.
+  void flush(double seconds) noexcept;
 
  private:
   MPI_Comm both_;

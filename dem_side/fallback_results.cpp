@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dem_side/survivor.hpp"
+#include "dem_side/fallback_results.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -13,14 +13,15 @@ namespace demvof {
 
 namespace fs = std::filesystem;
 
-struct Survivor::State {
+struct FallbackResults::State {
   std::mutex mutex;
   RunResults results;
   fs::path file;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 
-Survivor::Survivor(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world)
+FallbackResults::FallbackResults(const ProgramOptions& options, const CaseParameters& parameters,
+                                 const OwnWorld& world)
     : state_(std::make_shared<State>()) {
   RunResults& results = state_->results;
   state_->file = options.out / "results.json";
@@ -42,13 +43,13 @@ Survivor::Survivor(const ProgramOptions& options, const CaseParameters& paramete
   });
 }
 
-void Survivor::start(long particles) {
+void FallbackResults::start(long particles) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   state_->results.particles.initial = state_->results.particles.final = particles;
 }
 
-void Survivor::window(long windows, long dem_steps, long particles, double dem_seconds,
-                      double waiting_seconds) {
+void FallbackResults::window(long windows, long dem_steps, long particles, double dem_seconds,
+                             double waiting_seconds) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   RunResults& results = state_->results;
   results.steps.windows = windows;

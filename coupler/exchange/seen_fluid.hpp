@@ -10,7 +10,7 @@ namespace demvof {
 
 /// What the particles are told of the fluid, on the bulk cells of one rank: the fluid as it is, or relaxed
 /// towards it from what they were told before (relaxation.hpp says by how much and why).
-class ToldFluid {
+class SeenFluid {
  public:
   struct Parameters {
     Schedule schedule = Schedule::staggered;
@@ -18,7 +18,7 @@ class ToldFluid {
     double window = 0;         // s
     bool fluid_moves = false;  // the fluid makes way for particles: porosity
   };
-  explicit ToldFluid(const Parameters& parameters) : parameters_(parameters) {}
+  explicit SeenFluid(const Parameters& parameters) : parameters_(parameters) {}
 
   /// Velocity and pressure gradient, relaxed in place; they count as told. fluid_volume: of these cells,
   /// between the particles, m3; particles: those that will hear it. A cell whose particles were told nothing
@@ -48,14 +48,14 @@ class ToldFluid {
   struct Cell {
     Vec3 velocity, pressure_gradient, acceleration;  // m/s, Pa/m, m/s2
   };
-  const CellValues<Cell>& cells() const { return told_; }
-  void go_on_from(CellValues<Cell> told) { told_ = std::move(told); }
+  const CellValues<Cell>& cells() const { return seen_; }
+  void go_on_from(CellValues<Cell> seen) { seen_ = std::move(seen); }
 
  private:
   double factor(double density, double fluid_volume, const BulkParticles& particles) const;
 
   Parameters parameters_;
-  CellValues<Cell> told_;
+  CellValues<Cell> seen_;
   std::vector<double> factor_;  // of these, -
   Relaxed relaxed_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// q_told += omega (q - q_told), q = u, grad p, Du/Dt; omega of relaxation.hpp.
+// q_seen += omega (q - q_seen), q = u, grad p, Du/Dt; omega of relaxation.hpp.
 
-#include "coupler/exchange/told_fluid.hpp"
+#include "coupler/exchange/seen_fluid.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ void approach(Vec3& now, const Vec3& before, double omega) {
 
 }  // namespace
 
-double ToldFluid::factor(double density, double fluid_volume, const BulkParticles& particles) const {
+double SeenFluid::factor(double density, double fluid_volume, const BulkParticles& particles) const {
   const double gain = parameters_.fluid_moves ? making_way_gain(particles, density, fluid_volume) : 0;
   const double response = hands_back_left_over(parameters_.exchange)
                               ? particles.drag_response * parameters_.window / (density * fluid_volume)
@@ -26,16 +26,16 @@ double ToldFluid::factor(double density, double fluid_volume, const BulkParticle
   return relaxation_factor(parameters_.schedule, gain, response);
 }
 
-void ToldFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& fluid_volume,
+void SeenFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& fluid_volume,
                       const CellValues<BulkParticles>& particles) {
-  CellValues<Cell> told;
-  told.cells = fluid.cells;
+  CellValues<Cell> seen;
+  seen.cells = fluid.cells;
   factor_.assign(fluid.cells.size(), 1.0);
   relaxed_ = {};
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
     BulkFluid& cell = fluid.values[i];
     const BulkParticles* here = find(particles, fluid.cells[i]);
-    const Cell* before = find(told_, fluid.cells[i]);
+    const Cell* before = find(seen_, fluid.cells[i]);
     if (here && before) {
       factor_[i] = factor(cell.density, fluid_volume[i], *here);
       approach(cell.velocity, before->velocity, factor_[i]);
@@ -43,27 +43,27 @@ void ToldFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& f
       relaxed_.smallest = std::min(relaxed_.smallest, factor_[i]);
       relaxed_.cells += factor_[i] < 1;
     }
-    told.values.push_back({cell.velocity, cell.pressure_gradient, before ? before->acceleration : Vec3{}});
+    seen.values.push_back({cell.velocity, cell.pressure_gradient, before ? before->acceleration : Vec3{}});
   }
-  told_ = std::move(told);
+  seen_ = std::move(seen);
 }
 
-void ToldFluid::relax(CellValues<BulkFluidGradients>& gradients) {
+void SeenFluid::relax(CellValues<BulkFluidGradients>& gradients) {
   std::size_t at = 0;  // gradients are there for the cells of the fluid, or for some of them
   for (std::size_t i = 0; i < gradients.cells.size(); ++i) {
-    while (told_.cells[at] != gradients.cells[i]) ++at;
-    approach(gradients.values[i].acceleration, told_.values[at].acceleration, factor_[at]);
-    told_.values[at].acceleration = gradients.values[i].acceleration;
+    while (seen_.cells[at] != gradients.cells[i]) ++at;
+    approach(gradients.values[i].acceleration, seen_.values[at].acceleration, factor_[at]);
+    seen_.values[at].acceleration = gradients.values[i].acceleration;
   }
 }
 
-void ToldFluid::refer_to_own_cell(CellValues<BulkParticles>& particles) const {
+void SeenFluid::refer_to_own_cell(CellValues<BulkParticles>& particles) const {
   for (std::size_t i = 0; i < particles.cells.size(); ++i) {
-    const Cell* told = find(told_, particles.cells[i]);
-    if (!told) continue;
+    const Cell* seen = find(seen_, particles.cells[i]);
+    if (!seen) continue;
     BulkParticles& cell = particles.values[i];
     Vec3& reference = cell.response_weighted_velocity;
-    reference += free_share(cell) * (cell.drag_response * told->velocity - reference);
+    reference += free_share(cell) * (cell.drag_response * seen->velocity - reference);
   }
 }
 
