@@ -50,6 +50,7 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
     }
     here.drag_impulse = fluid.drag_impulse;
     here.drag_factor = beta;
+    here.drag_tangent = tangent;
     here.drag_response = response;
     here.drag_weighted_velocity = beta * vec3(particles.velocity[i]);
     if (gradients && window_ > 0)
@@ -74,7 +75,8 @@ std::vector<BulkParticles> FluidForces::expected_contributions(int k) const {
         drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
                       held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
     expected[i].drag_impulse = {};
-    expected[i].free_response = expected[i].following_response = 0;  // u_ref is to be this one everywhere
+    // u_ref is to be this one everywhere, and nobody counts as held by it.
+    expected[i].drag_tangent = expected[i].free_response = expected[i].following_response = 0;
     expected[i].response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
   }
   return expected;

@@ -46,8 +46,8 @@ double Replacement::leave_out_replaced(std::vector<BulkParticles>& contributions
   for (std::size_t i = 0; i < contributions.size(); ++i) {
     if (rows[i][0] == 0) continue;
     volume += contributions[i].solid_volume;
-    contributions[i].solid_volume = contributions[i].pressure_mobility = contributions[i].following_volume =
-        0;
+    BulkParticles& here = contributions[i];
+    here.solid_volume = here.pressure_mobility = here.following_volume = 0;
   }
   return volume;
 }

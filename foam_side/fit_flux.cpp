@@ -20,11 +20,13 @@ tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
 }
 
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
-  fit_flux(flow, flow.phi, mobility, wanted_rate);
+  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
+  // alpha.
+  fit_flux(flow, flow.phi, mobility, wanted_rate, wanted_rate == nullptr);
 }
 
 void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate) {
+              const scalarField* wanted_rate, bool to_the_end) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
   forAll(types, patch) {
     if (flow.p_rgh.boundaryField()[patch].fixesValue())
@@ -35,9 +37,7 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
 
-  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
-  // alpha.
-  const Foam::dictionary& solver = flow.mesh.solver(potential.select(wanted_rate == nullptr));
+  const Foam::dictionary& solver = flow.mesh.solver(potential.select(to_the_end));
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
     if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;

@@ -39,7 +39,7 @@ struct Porosity {
   // How the particles move (solid_motion.cpp):
   volVectorField::Internal solid_velocity;  // their mean v in a cell, m/s; 0 where there are none
   surfaceScalarField along;                 // v.S, m3/s
-  surfaceScalarField carried;               // flux of a fluid that goes with them, m3/s
+  surfaceScalarField carried;               // flux of a fluid that goes with them, and makes room, m3/s
 };
 
 /// Force of the particles on the fluid, F = force + coefficient (reference - u), held over a window.
@@ -186,9 +186,9 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 /// pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
-/// The same for any flux of volume.
+/// The same for any flux of volume. to_the_end: with the solver pcorrFinal.
 void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate);
+              const scalarField* wanted_rate, bool to_the_end);
 
 /// face_force of the present alpha and rho.
 void update_face_force(Flow& flow);

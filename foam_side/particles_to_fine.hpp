@@ -6,6 +6,7 @@
 #include "coupler/config/parameters.hpp"
 #include "coupler/exchange/crossing.hpp"
 #include "coupler/exchange/owed_pressure.hpp"
+#include "coupler/exchange/solid_in_fluids.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/surface_to_bulk.hpp"
@@ -99,6 +100,10 @@ class ParticlesToFine {
   std::vector<Vec3> own_shape() const;
   void distribute();
   std::vector<double> solid_fraction(const std::vector<std::vector<double>>& volumes);
+  std::vector<double> profile_in_main_fluid(const std::vector<double>& whole,
+                                            const std::vector<SolidInFluids>& inside,
+                                            const std::vector<double>& liquid,
+                                            const std::vector<double>& gas) const;
 
   Flow& flow_;
   const BulkCut& cut_;
@@ -115,5 +120,8 @@ class ParticlesToFine {
   Spread spread_;
   Vec3 collected_sum_, implicit_impulse_;  // what the fine cells got, this rank, N s: so far; in the window
 };
+
+/// Of each bulk cell, m3.
+CellValues<double> solid_volume(const CellValues<BulkParticles>& particles);
 
 }  // namespace demvof

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the particles move through the faces of the fine mesh, and the flux of a fluid that goes with them:
+// How the particles move through the faces of the fine mesh, and the flux of a fluid that goes with them, or
+// makes room for them:
 //
 //   J_v = v.S - s,   div(s) = d(eps)/dt       s: flux of solid
 //   v.S = mean(psi v).S / mean(psi)           psi = 1 - eps
@@ -10,11 +11,16 @@
 //
 //   s = mean(psi) v.S - M grad(q).S,   M = mean(psi) |v.n|,   div(M grad q) = div(mean(psi) v) - d(eps)/dt
 //
-// Where nothing moves M is 0. A void fraction that changes otherwise (particles that are put in, or that a
-// surface shares out anew) is no motion, and must not be taken for one: what goes through a face is limited
-// to
+// Where nothing moves M is 0. A void fraction that changes otherwise (particles that are put in or taken out,
+// that grow, or that a surface shares out anew) is no motion, and must not be taken for one: what goes
+// through a face is limited to
 //
 //   0 <= s <= 2 max(psi of both sides) v.S      2: an edge may lie within the cell
+//
+// What s leaves of d(eps)/dt takes its room from the fluid at once. The flux that makes it, of a potential,
+// is added to J_v and has no inertia and no drag: it would start and end with the window, and the impulses of
+// that, equal and opposite, would be felt by particles that are there for the second alone. (Neutral spheres
+// put into water at rest, a quarter of the volume in a window of 1 ms, went off with 0.2 m/s.)
 
 #include <algorithm>
 
@@ -79,6 +85,15 @@ void limit(surfaceScalarField& solid_flux, const surfaceScalarField& along, cons
   }
 }
 
+/// With div = -(d(eps)/dt - div(s)), m3/s.
+tmp<surfaceScalarField> flux_that_makes_room(Flow& flow, const surfaceScalarField& solid_flux) {
+  const tmp<volScalarField> moved = fvc::div(solid_flux);
+  const scalarField left(flow.porosity->rate.field() - moved().primitiveField());
+  tmp<surfaceScalarField> flux(0 * flow.porosity->along);
+  fit_flux(flow, flux.ref(), projection_mobility(flow), &left, false);
+  return flux;
+}
+
 }  // namespace
 
 void set_solid_velocity(Flow& flow, const Foam::vectorField& velocity) {
@@ -88,8 +103,9 @@ void set_solid_velocity(Flow& flow, const Foam::vectorField& velocity) {
 bool follow_solid(Flow& flow, bool at_start) {
   Porosity& porosity = *flow.porosity;
   const bool moves = Foam::gMax(Foam::mag(porosity.solid_velocity.field())()) > 0;
-  const bool moved = Foam::gMax(Foam::mag(porosity.along.primitiveField())()) > 0;
-  if (!moves && !moved) return false;
+  const bool changes = Foam::gMax(Foam::mag(porosity.rate.field())()) > 0;
+  const bool moved = Foam::gMax(Foam::mag(porosity.carried.primitiveField())()) > 0;
+  if (!moves && !moved && !changes) return false;
   volScalarField solid("solidFraction", 1.0 - porosity.eps);
   solid.max(0.0);
   volVectorField flux_density(Foam::IOobject("solidFluxDensity", flow.time.timeName(), flow.mesh,
@@ -104,11 +120,13 @@ bool follow_solid(Flow& flow, bool at_start) {
   close_boundary(porosity.along);
   const surfaceScalarField eps_f(face_void_fraction(porosity.eps));
   porosity.carried = eps_f * porosity.along;
-  if (at_start || !moves) return true;
+  if (at_start) return true;
   surfaceScalarField solid_flux(porosity.along - porosity.carried);
-  solid_flux -= missed_by_means(flow, solid_flux, solid_f);
-  limit(solid_flux, porosity.along, solid);
-  porosity.carried = porosity.along - solid_flux;
+  if (moves) {
+    solid_flux -= missed_by_means(flow, solid_flux, solid_f);
+    limit(solid_flux, porosity.along, solid);
+  }
+  porosity.carried = porosity.along - solid_flux + flux_that_makes_room(flow, solid_flux);
   return true;
 }
 

@@ -160,6 +160,8 @@ STUDY FILE
     repeat: 3                       runs per row; the median of their wall times counts
     rows:
       coarse: {single_scale: yes, set: {bulk_grid.cells: [40, 20, 60]}}
+      multi: {converged_in_time: multi_in_time}   which part of the error is the time's: the difference
+                                    to another row, the same mesh with short windows and steps
       finest: {set: {...}}
     sweep: {coupling.window: [5e-4, 2e-4]}   further rows, one for each combination
 

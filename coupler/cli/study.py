@@ -18,7 +18,7 @@ SYSTEM_PYTHON = "/usr/bin/python3"  # has the distribution's modules, whichever 
 
 try:
     from studying import result
-    from studying.errors import errors, statements
+    from studying.errors import errors, errors_in_time, statements
     from studying.plan import BadStudy, read_plan
     from studying.runs import Interrupted, Runs
 except ImportError as error:
@@ -50,12 +50,13 @@ def lock(out):
 
 def write_results(plan, runs, out):
     """study.json and study.html as far as the study got; returns their rows and sentences."""
-    reference = next((row for row in plan.rows if row.name == plan.reference.get("row")), None)
-    reference_run = runs.run(reference) if reference is not None and runs.finished(reference) else None
+    finished = {row.name: runs.run(row) for row in plan.rows if runs.finished(row)}
+    reference_run = finished.get(plan.reference.get("row"))
     rows = []
     for row in plan.rows:
-        run = runs.run(row) if runs.finished(row) else None
-        rows.append(runs.described(row, errors(run, plan, reference_run) if run else {}))
+        run, converged = finished.get(row.name), finished.get(row.converged_in_time)
+        rows.append(runs.described(row, errors(run, plan, reference_run) if run else {},
+                                   errors_in_time(run, plan, converged) if run and converged else {}))
     said = statements(rows, plan)
     result.write_json(out / "study.json", rows, plan, said)
     (out / "study.html").write_text(result.html(rows, plan, said), encoding="utf-8")

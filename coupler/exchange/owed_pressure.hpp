@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Momentum of the pressure, between a fluid that knows it when the window is done and particles that are seen
+// Momentum of the pressure, between a fluid that knows it when the window is done and particles that are told
 // of it when it begins.
 //
-//   O += left + g (V_e - V_s) dt_w - seen
+//   O += left + g (V_e - V_s) dt_w - told
 //
 //     left  what the fluid's equation left to the particles of a bulk cell in the window, -sum of dt (1 -
 //     eps) V
 //           grad p, N s;  g: over the sum of dt (1 - eps) V, the mean gradient
-//     seen  what they were given, -V_s grad p_seen dt_w, V_s: their volume when it was seen
+//     told  what they were given, -V_s grad p_seen dt_w, V_s: their volume when it was told
 //     V_e   mean of V_s over the fluid's steps, by the void fraction that moves on in the window
 //
 //   grad p_seen = grad p - eta O/(V_s dt_w),   eta = omega/2
 //
-// The particles are given the pressure of where they were when it was seen. -g (V_e - V_s) dt_w was left
+// The particles are given the pressure of where they were when it was told. -g (V_e - V_s) dt_w was left
 // where they were not, and the fluid of the cell gets it back: owed to those who come there, it would pull a
 // single sphere back by 1 % of its weight.
 //

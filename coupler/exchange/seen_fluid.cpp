@@ -20,10 +20,11 @@ void approach(Vec3& now, const Vec3& before, double omega) {
 
 double SeenFluid::factor(double density, double fluid_volume, const BulkParticles& particles) const {
   const double gain = parameters_.fluid_moves ? making_way_gain(particles, density, fluid_volume) : 0;
-  const double response = hands_back_left_over(parameters_.exchange)
-                              ? particles.drag_response * parameters_.window / (density * fluid_volume)
-                              : 0;
-  return relaxation_factor(parameters_.schedule, gain, response);
+  if (!hands_back_left_over(parameters_.exchange)) return relaxation_factor(parameters_.schedule, gain, 0);
+  const double response = particles.drag_response * parameters_.window / (density * fluid_volume);
+  PartlyHeld held = partly_held(particles, density, fluid_volume, parameters_.window);
+  if (!parameters_.fluid_moves) held.solid = 0;
+  return relaxation_factor(parameters_.schedule, gain, response, held);
 }
 
 void SeenFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& fluid_volume,

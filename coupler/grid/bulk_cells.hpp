@@ -49,6 +49,7 @@ struct BulkParticles {
   double solid_volume = 0;      // sum w V, m3
   Vec3 drag_impulse;            // J, sum w (impulse received as drag, lift, added mass in the window), N s
   double drag_factor = 0;       // K V_cell = sum w beta, kg/s
+  double drag_tangent = 0;      // sum w n beta, n beta = d(beta s)/ds, kg/s
   double drag_response = 0;     // K_eff V_cell, kg/s: response of J/dt to the fluid velocity
   Vec3 drag_weighted_velocity;  // sum w (beta v - mean lift and added-mass force), N
   Vec3 response_weighted_velocity;  // sum w beta_eff u_felt (fluid velocity each particle felt), N

@@ -130,8 +130,9 @@ std::vector<double> Remap::to_fine(const std::vector<double>& totals, int width,
 }
 
 std::vector<double> Remap::rises(const std::vector<Subcell>& subcells, const std::vector<double>& means,
-                                 int width) const {
-  const std::vector<Vec3> slopes = slopes_.gradients(means, width);
+                                 int width, Slope kind) const {
+  const std::vector<Vec3> slopes =
+      kind == Slope::mean ? slopes_.gradients(means, width) : slopes_.evaluate(means, width);
   std::vector<double> rise(subcells.size() * width, 0.0);
   for (std::size_t i = 0; i < subcells.size(); ++i) {
     const Subcell& subcell = subcells[i];

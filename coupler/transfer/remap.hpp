@@ -50,10 +50,11 @@ class Remap {
                               const std::vector<char>& flat = {}) const;
 
   /// Of fields on the bulk cells (slots x width), how much each of some subcells is above its bulk cell's
-  /// mean (subcells x width) by the mean slope of the cells around, not limited. 0 where a bulk cell is a
-  /// single subcell, and with other mappings than conservative.
-  std::vector<double> rises(const std::vector<Subcell>& subcells, const std::vector<double>& means,
-                            int width) const;
+  /// mean (subcells x width) by the mean slope of the cells around, or by that of to_fine. 0 where a bulk
+  /// cell is a single subcell, and with other mappings than conservative.
+  enum class Slope { mean, limited };
+  std::vector<double> rises(const std::vector<Subcell>& subcells, const std::vector<double>& means, int width,
+                            Slope kind = Slope::mean) const;
 
   /// This rank's part of sum over subcells of volume * weight_fine * value_subcell, per touched bulk cell
   /// (cells x width). The caller sums over ranks with cells().sum_to_owners.

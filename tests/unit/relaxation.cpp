@@ -2,7 +2,7 @@
 
 // Particles and fluid that push each other about, in one bulk cell. Fluid of density 1, window 1, volume 1;
 // particles of density rho_p, of which the fraction `held` is held by contacts, fill eps_s. What the
-// particles do in a window is solved exactly; what the fluid gets and what they are seen is what
+// particles do in a window is solved exactly; what the fluid gets and what they are told is what
 // fluid_source() and relaxation_factor() say.
 //
 //   volume   the fluid has to make way: eps u + eps_s v = 0, v the mean over the window; its pressure
@@ -54,14 +54,17 @@ struct Cell {
     const double theta = inertial_share(drag(), inertia(), window);
     sum.solid_volume = solid_fraction;
     sum.drag_factor = drag();
+    sum.drag_tangent = drag();
     sum.drag_response = drag_response(drag(), solid_fraction * density, window, held, added());
+    sum.free_response = drag_response(drag(), solid_fraction * density, window, 0, added());
     sum.pressure_mobility = theta * solid_fraction * (1 + added_coefficient) * solid_fraction / inertia();
     sum.following_volume = (1 - theta) * solid_fraction;
     return sum;
   }
   double relaxation() const {
     return relaxation_factor(schedule, making_way_gain(particles(), 1, eps()),
-                             particles().drag_response * window / eps());
+                             particles().drag_response * window / eps(),
+                             partly_held(particles(), 1, eps(), window));
   }
 
   State advance(const State& now, Mode mode, Seen seen) const {
@@ -144,7 +147,6 @@ TEST(Relaxation, NothingGrowsWithAddedMassUpToItsOwnLimit) {
 
 TEST(Relaxation, NothingGrowsWithSomeHeld) {
   for_all_cells(0, [](Cell cell) {
-    if (cell.solid_fraction > 0.6) return;  // half held and denser, stiff drag: times 1.2 per window
     for (const double held : {0.1, 0.5, 0.9}) {
       cell.held = held;
       EXPECT_LT(cell.growth(Mode::volume), 1 + 1e-6) << held;
@@ -156,7 +158,7 @@ TEST(Relaxation, NothingGrowsWithSomeHeld) {
 TEST(Relaxation, NothingGrowsWithAWindowOfLag) {
   for (const double held : {0.0, 0.5, 0.9})
     for_all_cells(0, [held](Cell cell) {
-      if (cell.solid_fraction > 0.6) return;
+      if (cell.solid_fraction > 0.65) return;
       cell.schedule = Schedule::concurrent;
       cell.held = held;
       EXPECT_LT(cell.growth(Mode::volume), 1 + 1e-6) << held;

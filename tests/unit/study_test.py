@@ -95,6 +95,15 @@ class Study(unittest.TestCase):
         self.assertIn("data:image/png;base64", page)
         self.assertNotIn("http://", page)
 
+    def test_the_part_of_the_time_is_told_apart(self):
+        self.study.write_text(STUDY.replace("{set: {coupling.window: 0.2}}",
+                                            "{set: {coupling.window: 0.2}, converged_in_time: fine}"))
+        done, found = self.make()
+        rows = {row["name"]: row for row in found["rows"]}
+        self.assertAlmostEqual(rows["multi"]["errors_in_time"]["q"], 1.2 / 1.1 - 1, places=9)
+        self.assertEqual(rows["coarse"]["errors_in_time"], {})
+        self.assertRegex(done.stdout, r"multi .* 20 % \(time 9.09 %\)")
+
     def test_goes_on_where_it_was(self):
         self.make()
         first = self.calls()
@@ -156,6 +165,8 @@ class Study(unittest.TestCase):
     def test_mistakes_are_named(self):
         for text, said in ((STUDY.replace("quantities", "quantitys"), "did you mean quantities"),
                            (STUDY.replace("row: finest", "row: finset"), "there is no row finset"),
+                           (STUDY.replace("{set: {coupling.window: 0.2}}", "{converged_in_time: fin}"),
+                            "multi.converged_in_time: there is no row fin"),
                            (STUDY.replace("case.yaml", "cas.yaml"), "there is no file"),
                            (STUDY.replace("{row: finest}", "{rows: finest}"), "is not allowed; give"),
                            ("case: case.yaml\nquantities: [q]\nreference: {exact: {q: 1}}\n", "rows: missing")):

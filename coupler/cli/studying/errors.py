@@ -45,6 +45,13 @@ def errors(run, plan, reference_run):
     return found
 
 
+def errors_in_time(run, plan, converged_run):
+    """quantity -> difference to the same mesh with windows and steps so short that they no longer matter, -."""
+    return {quantity: against_history(run.times, run.history[quantity], converged_run.times,
+                                      converged_run.history[quantity])
+            for quantity in plan.quantities if quantity in run.history and quantity in converged_run.history}
+
+
 def reference_text(reference):
     if "row" in reference:
         return f"the run {reference['row']}"

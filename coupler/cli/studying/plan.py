@@ -13,9 +13,9 @@ KEYS = {"case": "the case file, counted from the study file's folder",
         "quantities": "columns of history.csv whose error is measured",
         "reference": "{row: NAME}, {exact: {QUANTITY: VALUE}} or {file: CSV, quantity: NAME, time: COLUMN, value: COLUMN}",
         "repeat": "how often each run is made for its wall time (median); 1 when not given",
-        "rows": "the runs: {NAME: {set: {...}, single_scale: yes|no}}",
+        "rows": "the runs: {NAME: {set: {...}, single_scale: yes|no, converged_in_time: NAME}}",
         "sweep": "further runs, one for each combination: {KEY: [VALUE, ...]}"}
-ROW_KEYS = {"set", "single_scale"}
+ROW_KEYS = {"set", "single_scale", "converged_in_time"}
 REFERENCE_KEYS = {"row": {"row"}, "exact": {"exact"},
                   "file": {"file", "quantity", "time", "value", "time_scale", "value_scale", "value_shift"}}
 
@@ -29,6 +29,7 @@ class Row:
     name: str
     settings: dict  # path of a key -> value
     single_scale: bool = False
+    converged_in_time: str = None  # name of the row that differs by short windows and steps alone
 
 
 @dataclasses.dataclass
@@ -87,7 +88,8 @@ def read_rows(content, mistakes):
         if not isinstance(row, dict) or set(row) - ROW_KEYS:
             mistakes.append(f"rows.{name}: give a map with {', '.join(sorted(ROW_KEYS))}")
             continue
-        rows.append(Row(str(name), {**common, **(row.get("set") or {})}, bool(row.get("single_scale", False))))
+        rows.append(Row(str(name), {**common, **(row.get("set") or {})}, bool(row.get("single_scale", False)),
+                        row.get("converged_in_time")))
     sweep = content.get("sweep") or {}
     if not isinstance(sweep, dict) or not all(isinstance(values, list) and values for values in sweep.values()):
         mistakes.append("sweep: give a map of keys to lists of values")
@@ -99,6 +101,9 @@ def read_rows(content, mistakes):
     for name in dict.fromkeys(names):
         if names.count(name) > 1:
             mistakes.append(f"rows.{name}: given twice")
+    for row in rows:
+        if row.converged_in_time is not None and row.converged_in_time not in names:
+            mistakes.append(f"rows.{row.name}.converged_in_time: there is no row {row.converged_in_time}")
     if not rows:
         mistakes.append("rows: missing; give rows or a sweep")
     return rows

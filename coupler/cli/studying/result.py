@@ -14,14 +14,21 @@ def percent(error):
     return "-" if error is None else f"{100 * error:.3g} %"
 
 
+def error_cell(row, quantity):
+    """The error, and how much of it is the time's where the study says what to compare with."""
+    of_time = row["errors_in_time"].get(quantity)
+    return percent(row["errors"].get(quantity)) + ("" if of_time is None else f" (time {percent(of_time)})")
+
+
 def text(rows, quantities, statements):
     """The table for the terminal."""
     width = max(len(row["name"]) for row in rows)
-    lines = [f"{'':<{width}}  {'status':<12}{'wall':>10}{'cells':>10}  " + "  ".join(quantities)]
+    wide = {q: max([len(q)] + [len(error_cell(row, q)) for row in rows]) for q in quantities}
+    lines = [f"{'':<{width}}  {'status':<12}{'wall':>10}{'cells':>10}  " + "  ".join(f"{q:>{wide[q]}}" for q in quantities)]
     for row in rows:
         wall = "-" if row["wall_seconds"] is None else f"{row['wall_seconds']:.1f} s"
         cells = row["cells"].get("fine_max") or "-"
-        errors = "  ".join(f"{percent(row['errors'].get(q)):>{len(q)}}" for q in quantities)
+        errors = "  ".join(f"{error_cell(row, q):>{wide[q]}}" for q in quantities)
         lines.append(f"{row['name']:<{width}}  {row['status']:<12.12}{wall:>10}{cells:>10}  {errors}")
     return "\n".join(lines + [""] + statements)
 
@@ -90,7 +97,7 @@ def html(rows, plan, statements):
         status = row["status"] if not row["failure"] else f"{row['status']}: {row['failure']}"
         body.append([str(number), escape(row["name"]), escape(status), tables.duration(row["wall_seconds"]), *parts,
                      tables.amount(row["cells"].get("fine_max")), tables.size(row["peak_memory_bytes"]),
-                     *(percent(row["errors"].get(q)) for q in plan.quantities)])
+                     *(error_cell(row, q) for q in plan.quantities)])
     plots = ""
     for quantity in plan.quantities:
         figure = error_against_time(rows, quantity)
@@ -103,7 +110,8 @@ def html(rows, plan, statements):
     title = f"Study {plan.file.stem}"
     parts = [f"<h1>{escape(title)}</h1>",
              f"<p>Errors against {escape(reference_text(plan.reference))}; root mean square over the run, relative to "
-             "that of the reference. Wall times: median of " f"{plan.repeat} run(s), one after the other.</p>",
+             "that of the reference. In brackets: the part of the time, against the same mesh with short windows and "
+             "steps. Wall times: median of " f"{plan.repeat} run(s), one after the other.</p>",
              section("What it says", said), section("Runs", table(body, header)),
              section("Error against run time", "<p class=\"quiet\">The numbers are those of the table's rows.</p>"
                      f"<div class=\"columns\">{plots}</div>"), section("Cost", costs)]

@@ -101,7 +101,7 @@ class Runs:
         except NoRun:
             return None
 
-    def described(self, row, errors):
+    def described(self, row, errors, errors_in_time):
         """The row of study.json."""
         run, times = self.run(row), self.finished(row)
         status = "completed" if times else "not run" if run is None else run.status
@@ -115,4 +115,5 @@ class Runs:
                 "parts_seconds": run.results.get("wall_seconds", {}) if run else {},
                 "peak_memory_bytes": sum(m for m in memory if m) or None,
                 "cells": run.results.get("cells", {}) if run else {}, "errors": errors,
+                "converged_in_time": row.converged_in_time, "errors_in_time": errors_in_time,
                 "conservation": run.results.get("conservation", {}) if run else {}}

@@ -43,6 +43,12 @@ class Map:
         gain = 1.5 * inertial + following * (1 + 0.3 * following + 4 * max(VOLUME_RATIO - following, 0))
         answer = self.response if scheme == "conservative_implicit" else 0
         self.relaxation = min(1, 1.2 / (1 + gain) if schedule == "staggered" else 1 / (0.3 + 0.8 * min(answer, 2) + 3 * gain))
+        if scheme == "conservative_implicit":
+            share = held * stiffness / (stiffness - self.mass * self.decay)
+            kept = (2 + share * stiffness) / (2 + stiffness)
+            kept = min(1, 1.4 * kept) if schedule == "staggered" else kept**1.5
+            part = min(1, share / 0.15)
+            self.relaxation *= (1 - part + part * kept) / (1 + 3 * share * (1 - share) * max(0, VOLUME_RATIO - 1.2))
         self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(6)]).T
 
     def window(self, now, first=False):
