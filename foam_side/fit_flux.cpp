@@ -19,14 +19,27 @@ tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
   return free / (1.0 / drag.eps_f + drag.resistance);
 }
 
+// A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
+// alpha.
+const Foam::dictionary& flux_solver(const Flow& flow, bool to_the_end) {
+  return flow.mesh.solver(to_the_end ? "pcorrFinal" : "pcorr");
+}
+
+Foam::dictionary solver_for_rest(const Flow& flow, const scalarField& missed) {
+  const scalarField& volume = flow.mesh.V().field();
+  Foam::dictionary solver(flux_solver(flow, false));
+  const double all = Foam::gSumMag(scalarField(flow.porosity->rate.field() * volume));
+  const double rest = Foam::gSumMag(scalarField(missed * volume));
+  if (rest > 0 && all > 0) solver.set("tolerance", solver.get<scalar>("tolerance") * all / rest);
+  return solver;
+}
+
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
-  // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for
-  // alpha.
-  fit_flux(flow, flow.phi, mobility, wanted_rate, wanted_rate == nullptr);
+  fit_flux(flow, flow.phi, mobility, wanted_rate, flux_solver(flow, wanted_rate == nullptr));
 }
 
 void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate, bool to_the_end) {
+              const scalarField* wanted_rate, const Foam::dictionary& solver) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
   forAll(types, patch) {
     if (flow.p_rgh.boundaryField()[patch].fixesValue())
@@ -37,7 +50,6 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
 
-  const Foam::dictionary& solver = flow.mesh.solver(potential.select(to_the_end));
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
     if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;

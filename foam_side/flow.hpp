@@ -186,9 +186,16 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 /// pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
-/// The same for any flux of volume. to_the_end: with the solver pcorrFinal.
+/// The same for any flux of volume.
 void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate, bool to_the_end);
+              const scalarField* wanted_rate, const Foam::dictionary& solver);
+
+/// A flux of which this is left to fit (1/s, per cell): fitted as well as fvSolution asks for with respect to
+/// the whole rate of the void fraction.
+Foam::dictionary solver_for_rest(const Flow& flow, const scalarField& missed);
+
+/// What fvSolution says for it.
+const Foam::dictionary& flux_solver(const Flow& flow, bool to_the_end);
 
 /// face_force of the present alpha and rho.
 void update_face_force(Flow& flow);

@@ -39,7 +39,7 @@ void set_ghost_target(Flow& flow, const scalarField& eps, const Foam::vectorFiel
                      Foam::IOobject::NO_WRITE, false),
       flow.mesh, dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
   const scalarField wanted(-growth);
-  fit_flux(flow, ghost.flux, anywhere_alike, &wanted, false);
+  fit_flux(flow, ghost.flux, anywhere_alike, &wanted, flux_solver(flow, false));
 }
 
 void carry_ghost(Flow& flow) {

@@ -98,9 +98,9 @@ void set_porosity_target(Flow& flow, const scalarField& eps) {
                                   : flux_of(flow, flow.mesh.Sf() & *flow.face_velocity);
   const tmp<scalarField> wanted = wanted_porosity_rate(flow);
   const tmp<volScalarField> divergence = fvc::div(flow.phi);
-  const double worst = Foam::gMax(Foam::mag(divergence().primitiveField() + wanted())());
-  if (worst * flow.time.deltaTValue() > negligible_change)
-    fit_flux(flow, projection_mobility(flow), &wanted());
+  const scalarField missed(divergence().primitiveField() + wanted());
+  if (Foam::gMax(Foam::mag(missed)()) * flow.time.deltaTValue() > negligible_change)
+    fit_flux(flow, flow.phi, projection_mobility(flow), &wanted(), solver_for_rest(flow, missed));
 }
 
 void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end) {

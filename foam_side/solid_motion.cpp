@@ -90,7 +90,7 @@ tmp<surfaceScalarField> flux_that_makes_room(Flow& flow, const surfaceScalarFiel
   const tmp<volScalarField> moved = fvc::div(solid_flux);
   const scalarField left(flow.porosity->rate.field() - moved().primitiveField());
   tmp<surfaceScalarField> flux(0 * flow.porosity->along);
-  fit_flux(flow, flux.ref(), projection_mobility(flow), &left, false);
+  fit_flux(flow, flux.ref(), projection_mobility(flow), &left, solver_for_rest(flow, left));
   return flux;
 }
 
