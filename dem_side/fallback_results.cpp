@@ -2,6 +2,7 @@
 #include "dem_side/fallback_results.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
 
@@ -48,15 +49,17 @@ void FallbackResults::start(long particles) {
   state_->results.particles.initial = state_->results.particles.final = particles;
 }
 
-void FallbackResults::window(long windows, long dem_steps, long particles, double dem_seconds,
-                             double waiting_seconds) {
+void FallbackResults::window(long windows, long dem_steps, const ParticleReport& report, long particles) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   RunResults& results = state_->results;
   results.steps.windows = windows;
   results.steps.particles = dem_steps;
   results.particles.final = particles;
-  results.wall_seconds.particles = dem_seconds;
-  results.wall_seconds.waiting = waiting_seconds;
+  results.particles.inserted = std::lround(report.inserted);
+  results.particles.left = std::lround(report.left);
+  results.particles.lost = std::lround(report.lost);
+  results.wall_seconds.particles = report.dem_seconds;
+  results.wall_seconds.waiting = report.waiting_seconds;
 }
 
 }  // namespace demvof

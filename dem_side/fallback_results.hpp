@@ -5,6 +5,7 @@
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/config/program_options.hpp"
+#include "coupler/exchange/particle_report.hpp"
 #include "coupler/link/own_world.hpp"
 
 namespace demvof {
@@ -16,7 +17,7 @@ class FallbackResults {
   FallbackResults(const ProgramOptions& options, const CaseParameters& parameters, const OwnWorld& world);
 
   void start(long particles);
-  void window(long windows, long dem_steps, long particles, double dem_seconds, double waiting_seconds);
+  void window(long windows, long dem_steps, const ParticleReport& report, long particles);
 
  private:
   struct State;  // shared with the last words, which another thread may speak

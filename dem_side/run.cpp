@@ -202,10 +202,11 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     link.send(done);
     seconds.exchange = link.statistics().exchange_seconds;
     seconds.waiting = link.statistics().waiting_seconds;
-    link.close_window(report.window(forces, averaging, replaced_volume, seconds));
+    const ParticleReport said = report.window(forces, averaging, replaced_volume, seconds);
+    link.close_window(said);
 
     const long done_here = link.number() - plan.windows_before;
-    fallback_results.window(done_here, done_here * steps, report.count(), seconds.dem, seconds.waiting);
+    fallback_results.window(done_here, done_here * steps, said, report.count());
     if (!link.writes()) continue;
     run_stage().set("output", time);
     output.write(time, coupling.window, forces, averaging, fluid.means);

@@ -285,7 +285,8 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
   if (flow.scene.surface_tension) numbers.capillary_step = capillary_step(flow, surface_tension);
   numbers.collision_time = particles.at("collision_time");
   numbers.rayleigh_time = particles.at("rayleigh_time");
-  numbers.drag_time = particles.at("lightest_response").get<double>() / Foam::gMax(dynamic_viscosity(flow)());
+  if (const double viscosity = Foam::gMax(dynamic_viscosity(flow)()); viscosity > 0)
+    numbers.drag_time = particles.at("lightest_response").get<double>() / viscosity;
   numbers.min_diameter = particles.at("min_diameter");
   numbers.max_diameter = particles.at("max_diameter");
   return numbers;
@@ -347,6 +348,11 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     require_mesh_fits(*grid, flow->mesh);
     require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));
   }
+  if (flow->porosity && facts.inserts_particles && flow->p_rgh.needReference())
+    throw InputError(
+        "the script puts particles in during the run, and the fluid's box is closed: no patch fixes p_rgh, "
+        "so that "
+        "the fluid has nowhere to go; give the case an opening, or scene.porosity: off");
   if (scene.interchange == PhaseInterchange::replacement)
     require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
   if (options.check) {
@@ -375,7 +381,9 @@ int run_fluid(const ProgramOptions& options, const OwnWorld& world) {
   try {
     return run_case(options, world);
   } catch (const Foam::error& error) {
-    const std::string said = error.message();
+    std::string said = error.message();
+    if (const auto* input = dynamic_cast<const Foam::IOerror*>(&error))
+      said = fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), said);
     if (run_stage().time() > 0) throw RunError(said);
     throw InputError(said);
   }

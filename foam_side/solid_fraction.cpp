@@ -20,6 +20,7 @@ namespace {
 // Below this the drag and pressure terms of the porous equations lose their meaning (closest packing
 // of spheres of one size leaves 0.26).
 constexpr double smallest_void_fraction = 0.05;
+constexpr double round_off = 1e-13;  // of a solid fraction
 
 }  // namespace
 
@@ -117,7 +118,7 @@ scalarField ParticlesToFine::void_fraction(double part) {
   const std::vector<double> solid = solid_fraction(volumes);
   scalarField eps(flow_.mesh.nCells());
   forAll(eps, cell) {
-    spread_.negative_cells += solid[cell] < 0;
+    spread_.negative_cells += solid[cell] < -round_off;
     eps[cell] = 1 - std::max(solid[cell], 0.0);
     spread_.full_cells += eps[cell] < smallest_void_fraction;
     eps[cell] = std::max(eps[cell], smallest_void_fraction);

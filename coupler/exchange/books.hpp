@@ -91,8 +91,10 @@ class Books {
     balance.bulk_solid_volume = particles.solid_volume_bulk;
     balance.particle_volume = particles.solid_volume - particles.replaced_volume;
     // With the concurrent schedule the mesh has the particles of the window before.
-    if (!(balance.particles_changed && schedule_ == Schedule::concurrent))
-      balance.fine_solid_volume = fluid.fine_solid_volume;
+    const std::optional<double> on_mesh =
+        schedule_ == Schedule::concurrent ? volume_before_ : std::optional(balance.particle_volume);
+    volume_before_ = balance.particle_volume;
+    if (fluid.fine_solid_volume && on_mesh) balance.fine_solid_error = *fluid.fine_solid_volume - *on_mesh;
     enter(fluid, balance);
   }
 
@@ -132,6 +134,7 @@ class Books {
   double replaced_liquid_ = 0;  // m3
   Vec3 replacement_impulse_;
   double gone_impulse_ = 0;
+  std::optional<double> volume_before_;  // of the particles, a window ago, m3
   Ledger ledger_;
   MomentumBooks momentum_;
 };

@@ -43,8 +43,8 @@ struct WindowBalance {
   double gross_impulse = 0;                           // largest of its parts, N s
   bool particles_changed = false;                     // some came or went, with momentum of their own
   double bulk_solid_volume = 0, particle_volume = 0;  // at the end of the window, m3
-  std::optional<double> fine_solid_volume;            // on the fine mesh, where it is put there, m3
-  double liquid_volume = 0;                           // at the end of the window, m3
+  std::optional<double> fine_solid_error;  // on the fine mesh, where it is put there, less what should be, m3
+  double liquid_volume = 0;                // at the end of the window, m3
   double liquid_in = 0;  // came in through the boundary or replaced particles in the window, m3
 };
 
@@ -90,8 +90,7 @@ class Ledger {
       errors.momentum = relative(norm(drift), momentum_scale_);
 
     const double on_bulk = std::abs(window.bulk_solid_volume - window.particle_volume);
-    const double on_fine =
-        window.fine_solid_volume ? std::abs(*window.fine_solid_volume - window.particle_volume) : 0;
+    const double on_fine = std::abs(window.fine_solid_error.value_or(0));
     errors.solid_volume = relative(std::max(on_bulk, on_fine), window.particle_volume);
     liquid_ += window.liquid_in;
     errors.liquid_volume = relative(std::abs(window.liquid_volume - liquid_), liquid_);

@@ -46,7 +46,7 @@ Json array(const Vec3& v) {
 Json momentum(const MomentumBooks& books) {
   Json impulses = Json::object();
   for (const auto& [part, member] : OutsideImpulses::parts) impulses[part] = array(books.impulses().*member);
-  return {{"error", array(books.worst())},
+  return {{"error", books.judged() > 0 ? array(books.worst()) : Json()},
           {"windows", books.windows()},
           {"windows_judged", books.judged()},
           {"impulses", impulses}};
@@ -92,10 +92,11 @@ std::string results_json(const RunResults& r) {
                        {"final", r.particles.final}};
   json["relaxation"] = {{"smallest", r.relaxation.smallest}, {"cells", r.relaxation.cells}};
   json["exchanged"] = {{"bytes", r.exchanged.bytes}, {"cells", r.exchanged.cells}};
-  json["conservation"] = {{"exchange", r.conservation.exchange},
-                          {"momentum", r.conservation.momentum},
-                          {"solid_volume", r.conservation.solid_volume},
-                          {"liquid_volume", r.conservation.liquid_volume}};
+  json["conservation"] = {
+      {"exchange", r.conservation.exchange},
+      {"momentum", r.momentum && r.momentum->judged() == 0 ? Json() : Json(r.conservation.momentum)},
+      {"solid_volume", r.conservation.solid_volume},
+      {"liquid_volume", r.conservation.liquid_volume}};
   if (r.momentum) json["momentum"] = momentum(*r.momentum);
   json["closures"] = Json::object();
   for (const auto& [closure, evaluations, outside] : r.closures)

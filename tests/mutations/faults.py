@@ -15,8 +15,8 @@ START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}
 SETTLING = {"^pair.batch_settling$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]}
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
-SHEAR, POURED, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
-                                  ("suspension_viscosity", "particle_injection", "carried", "extremes"))
+SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
+                                  ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
@@ -48,6 +48,9 @@ FAULTS = [
     ("coupler/exchange/relaxation.hpp", "4 * std::max(solid - following, 0.0)",
      "0 * std::max(solid - following, 0.0)", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "? (1 + gain) / 1.2 :", "? (1 + gain) / 2.4 :", EXCHANGE),
+    ("coupler/exchange/relaxation.hpp", "(2 + h * q) / (2 + q)", "1", EXCHANGE),
+    ("coupler/exchange/relaxation.hpp", "3 * h * (1 - h)", "0", EXCHANGE),
+    ("coupler/exchange/books.hpp", "volume_before_ = balance.particle_volume;", "", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "density * particles.pressure_mobility / fluid_volume",
      "density * particles.pressure_mobility", EXCHANGE),
     ("coupler/exchange/crossing.hpp", "closing > least_speed && distance <=",
@@ -114,7 +117,11 @@ FAULTS = [
     ("foam_side/particles_to_fine.cpp", "rise[i + 1 + axis] - rise[i] * rows[cell + 1 + axis]",
      "rise[i] * rows[cell + 1 + axis] - rise[i + 1 + axis]", SHEAR),
     ("foam_side/solid_motion.cpp", "2 * std::max(one, other) * along_face", "1000 * std::max(one, other) * along_face",
-     POURED),
+     COMING),
+    ("foam_side/solid_motion.cpp", "- solid_flux + flux_that_makes_room(flow, solid_flux)", "- solid_flux", COMING),
+    ("foam_side/solid_motion.cpp", "flow.porosity->rate.field() - moved().primitiveField()", "flow.porosity->rate.field()", CARRIED),
+    ("foam_side/solid_fraction.cpp", "(rise[i] - here)", "0", COMING),
+    ("foam_side/solid_fraction.cpp", "middle[slot] / most", "0", COMING),
     ("foam_side/solid_motion.cpp", "return porosity.along + (flux - porosity.carried)",
      "return porosity.along + (flux + porosity.carried)", CARRIED),
     ("foam_side/run.cpp", "return end + (end - before);", "return end + 0 * (end - before);", SETTLING),

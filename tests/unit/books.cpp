@@ -124,6 +124,25 @@ TEST(Books, ReplacedParticlesAreLiquid) {
   EXPECT_LT(books.worst().liquid_volume, 1e-15);
 }
 
+// Beads come, and others drift out of the fluid: the mesh hears of it in the next window.
+TEST(Books, TheMeshHasConcurrentParticlesOfAWindowAgo) {
+  Books books(ExchangeScheme::conservative_implicit, Schedule::concurrent, {}, {}, {});
+  double before = 4e-5;
+  for (const double volume : {4e-5, 6e-5, 3e-5, 3e-5}) {
+    Reports r = reports({}, {}, {}, {});
+    r.particles.solid_volume = r.particles.solid_volume_bulk = volume;
+    r.fluid.fine_solid_volume = before;
+    books.window(r.fluid, r.particles);
+    before = volume;
+  }
+  EXPECT_LT(books.worst().solid_volume, 1e-15);
+  Reports r = reports({}, {}, {}, {});
+  r.particles.solid_volume = r.particles.solid_volume_bulk = 6e-5;
+  r.fluid.fine_solid_volume = 6e-5;
+  books.window(r.fluid, r.particles);
+  EXPECT_NEAR(books.worst().solid_volume, 0.5, 1e-12);
+}
+
 /// Fluid and particles together: of what the fluid's pressure leaves to the particles they get a part now and
 /// are owed the rest.
 TEST(Books, MomentumOfEverything) {

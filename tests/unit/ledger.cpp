@@ -48,7 +48,7 @@ TEST(Ledger, SolidOnTheFineMeshCountsWhereItIsPutThere) {
   Ledger ledger = at_rest();
   WindowBalance window = closed({}, {}, {});
   EXPECT_EQ(ledger.close(window).solid_volume, 0);
-  window.fine_solid_volume = 3e-5;
+  window.fine_solid_error = -1e-5;
   EXPECT_DOUBLE_EQ(ledger.close(window).solid_volume, 0.25);
 }
 
