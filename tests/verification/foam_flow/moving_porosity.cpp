@@ -25,14 +25,25 @@ struct Hump {
   double swing, speed;  // m, rad/s
   double centre(double t) const { return 0.5 + swing * std::sin(speed * t); }
   double eps(double x, double t) const { return 1 - depth * std::exp(-std::pow((x - centre(t)) / width, 2)); }
+  double own_velocity(double t) const { return swing * speed * std::cos(speed * t); }
   /// int_0^x X_t dx = -V (X - 1), V the hump's velocity
-  double velocity(double x, double t) const {
-    const double v = swing * speed * std::cos(speed * t);
-    return v * (eps(x, t) - 1) / eps(x, t);
-  }
+  double velocity(double x, double t) const { return own_velocity(t) * (eps(x, t) - 1) / eps(x, t); }
 };
 
 const Hump along_x{0.1, 2 * pi}, along_z{-0.07, 3 * pi};
+
+/// The solid's velocity: d(eps)/dt = div((1 - eps) v), and nothing passes the walls. Without one what changes
+/// would have no inertia.
+void move_solid(Flow& flow, double t) {
+  Foam::vectorField velocity(flow.mesh.nCells());
+  forAll(velocity, cell) {
+    const vector x = flow.mesh.C()[cell];
+    const double X = along_x.eps(x.x(), t), Z = along_z.eps(x.z(), t), solid = 1 - X * Z;
+    const vector flux(Z * (1 - X) * along_x.own_velocity(t), 0, X * (1 - Z) * along_z.own_velocity(t));
+    velocity[cell] = flux / std::max(solid, 1e-12);
+  }
+  set_solid_velocity(flow, velocity);
+}
 
 Settings liquid_box(int n) {
   return {{"lx", "1"},
@@ -71,6 +82,7 @@ Order closed_box(int n) {
   for (int k = 1; k <= windows; ++k) {
     begin_window(*flow, k * window);
     flow->clock.limit = window;
+    move_solid(*flow, (k - 0.5) * window);
     set_porosity_target(*flow, eps_at(k * window));
     advance(*flow);
   }
@@ -119,6 +131,7 @@ Books open_box(int steps_per_window) {
   const double largest_solid = solid(0.2);
   for (int k = 1; k <= 15; ++k) {
     begin_window(*flow, k * window);
+    move_solid(*flow, (k - 0.5) * window);
     set_porosity_target(*flow, eps_at(k * window));
     std::vector<double> rates;
     while (advance_clock(*flow)) {
