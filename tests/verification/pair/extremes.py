@@ -126,16 +126,18 @@ def main():
     record.note("runs", len(runs))
     record.at_most("runs that end with an error", sum(run is None for run in held.values()), 0)
     done = {name: run for name, run in held.items() if run}
-    for books, bound in (("exchange", 1e-11), ("solid_volume", 1e-11), ("liquid_volume", 1e-11)):
-        record.at_most(f"conservation.{books}, worst run", max(r.results["conservation"][books] for r in done.values()), bound)
-    record.at_most("alpha outside [0, 1] by, worst run", max(map(outside_bounds, done.values())), 1e-6)
+    for books, bound in (("exchange", 2e-13), ("solid_volume", 2e-13), ("liquid_volume", 1.7e-13)):
+        record.at_most(f"conservation.{books}, worst run", max(r.results["conservation"][books] for r in done.values()),
+                       1e-11 if options.long else bound)
+    record.at_most("alpha outside [0, 1] by, worst run", max(map(outside_bounds, done.values())), 1e-6,
+                   loose="none in the short form; 1.3e-7 in the long one")
     record.at_most("beads lost", sum(r.results["particles"]["lost"] for r in done.values()), 0)
     for name, run in runs.items():
         worst = rise(run) if run else float("nan")
         if name in NOT_HELD:
             record.note(f"{name}: energy above its start, over it", worst if run else "ended with an error")
         else:
-            record.at_most(f"{name}: energy above its start, over it", worst, 0.01)
+            record.at_most(f"{name}: energy above its start, over it", worst, 0.01, loose="an extreme may give no energy that matters: 1.4e-3 at worst in the long form")
     momentum_of_everything(record)
     raise SystemExit(record.write())
 

@@ -43,7 +43,8 @@ def main():
                 gas.append(float(numpy.max(run.history["velocity_squared_integral_gas"])))
                 name = f"{kernel}, {sharing}, density ratio {ratio}"
                 if sharing == "mass":
-                    record.at_most(f"{name}: fastest fluid / sphere's speed", fastest[-1], 1)
+                    record.at_most(f"{name}: fastest fluid / sphere's speed", fastest[-1], 1,
+                                   loose="what is asked: nothing outruns the sphere")
                 else:
                     record.note(f"{name}: fastest fluid / sphere's speed", fastest[-1])
                 record.note(f"{name}: largest integral of u.u in the gas", gas[-1], "m5/s2")

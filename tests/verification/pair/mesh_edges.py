@@ -76,7 +76,7 @@ def above_an_open_top():
     RECORD.at_most("above an open top: momentum gained in a window there, against the weight's",
                    numpy.abs(numpy.diff(momentum[above])[1:] / per_window - 1).max(), 2e-12)
     RECORD.at_most("above an open top: solid volume on the mesh once it is inside, against its own",
-                   numpy.abs(solid[inside] / volume - 1).max(), 5e-12)
+                   numpy.abs(solid[inside] / volume - 1).max(), 6.7e-13)
     RECORD.at_most("above an open top: exchange error", run.number("conservation.exchange"), 2e-14)
 
 
@@ -95,11 +95,11 @@ def behind_an_outlet():
     volume = numpy.pi / 6 * 4e-3**3
     gone = numpy.flatnonzero(solid < 1e-10 * volume)
     RECORD.at_most("behind an outlet: solid volume on the mesh two windows later, over the bead's",
-                   numpy.abs(solid[gone[2:]]).max() / volume, 1e-12)
+                   numpy.abs(solid[gone[2:]]).max() / volume, 1e-13)
     RECORD.at_least("behind an outlet: windows in which the bead is there", len(gone), 20)
     RECORD.at_most("behind an outlet: change of its momentum there, relative",
                    numpy.abs(momentum[gone[1:]] / momentum[gone[1]] - 1).max(), 1e-14)
-    RECORD.at_least("behind an outlet: what the water took of it before", 1 - momentum[gone[0]] / momentum[0], 0.01)
+    RECORD.at_least("behind an outlet: what the water took of it before", 1 - momentum[gone[0]] / momentum[0], 0.11)
     RECORD.at_least("behind an outlet: particles counted as outside at the end", run.results["particles"]["outside_fluid"], 1)
     RECORD.at_most("behind an outlet: exchange error", run.number("conservation.exchange"), 2e-14)
 

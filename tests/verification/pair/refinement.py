@@ -35,8 +35,8 @@ def main():
         cells, conservation = run.results["cells"], run.results["conservation"]
         record.at_least(f"{name}: changes of the mesh", cells["mesh_changes"], 10 if options.long else 4)
         record.at_most(f"{name}: liquid volume", conservation["liquid_volume"], 1e-12)
-        record.at_most(f"{name}: solid volume", conservation["solid_volume"], 2e-13)
-        record.at_most(f"{name}: momentum exchange", conservation["exchange"], 4e-13)
+        record.at_most(f"{name}: solid volume", conservation["solid_volume"], 2e-13 if options.long else 1.1e-13)
+        record.at_most(f"{name}: momentum exchange", conservation["exchange"], 4e-13 if options.long else 8e-14)
         record.note(f"{name}: most fine cells", cells["fine_max"])
         record.note(f"{name}: most cells on a rank over the mean", cells["imbalance"])
     return record.write()

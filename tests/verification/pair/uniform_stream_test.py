@@ -91,21 +91,22 @@ def main():
                 at_tau = numpy.argmin(abs(times - tau))
                 errors.append(abs(v[at_tau] / right[at_tau] - 1))
             else:
-                record.at_most(f"{name}: |v/u - 1| after 4 windows of {ratio} tau", abs(v[-1] / right[-1] - 1), 0.02)
+                record.at_most(f"{name}: |v/u - 1| after 4 windows of {ratio} tau", abs(v[-1] / right[-1] - 1), 0.02 if LONG else 1.4e-4)
             if ratio in (0.05, 0.5, 10):
                 record.curve(f"velocity, {name}", "t / tau", "v / u", f"window {ratio} tau", times / tau, v / SPEED)
                 if ratio == 0.05:
                     record.curve(f"velocity, {name}", "t / tau", "v / u", "exact", times / tau, right / SPEED,
                                  style="k-")
         order = math.log(errors[-1] / errors[small.index(0.05)]) / math.log(small[-1] / 0.05)
-        record.at_most(f"{name}: error at tau, window 0.05 tau", errors[small.index(0.05)], 0.01)
+        record.at_most(f"{name}: error at tau, window 0.05 tau", errors[small.index(0.05)], 0.01 if LONG else 2.7e-3)
         if LONG:
             record.note(f"{name}: error at tau, window 0.01 tau", errors[0])
         record.at_least(f"{name}: order in the window, 0.05 to {small[-1]} tau", order, 0.9)
-        record.at_most(f"{name}: overshoot, any window", excess, 1e-6)
-        record.at_most(f"{name}: exchange and momentum books", books, 1e-10)
+        record.at_most(f"{name}: overshoot, any window", excess, 1e-6,
+                       loose="none is measured: the velocity comes from below; 1e-6 is round-off of the output's digits")
+        record.at_most(f"{name}: exchange and momentum books", books, 1e-10 if LONG else 1e-12)
         record.curve("error at tau against the window", "window / tau", "error, -", name, small, errors, "xy")
-    momentum_of_everything(record)
+    momentum_of_everything(record, 1e-8 if LONG else 5e-13)
     sys.exit(record.write())
 
 
