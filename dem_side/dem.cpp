@@ -222,17 +222,19 @@ ParticleCensus Dem::census() const {
   const ParticleArrays local = particles();
   double sums[2] = {static_cast<double>(local.count), 0};
   constexpr double none = std::numeric_limits<double>::max();
-  double extremes[3] = {-none, 0, -none};  // -smallest, largest radius; -smallest mass/radius
+  double extremes[4] = {-none, 0, -none, -none};  // -smallest, largest radius; -smallest mass/radius, density
   for (int i = 0; i < local.count; ++i) {
     sums[1] += sphere_volume(local.radius[i]);
     extremes[0] = std::max(extremes[0], -local.radius[i]);
     extremes[1] = std::max(extremes[1], local.radius[i]);
     extremes[2] = std::max(extremes[2], -local.mass[i] / local.radius[i]);
+    extremes[3] = std::max(extremes[3], -local.mass[i] / sphere_volume(local.radius[i]));
   }
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world_), "MPI_Allreduce");
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
   const long count = std::lround(sums[0]);
-  return {count, count ? -2 * extremes[0] : 0, 2 * extremes[1], sums[1], count ? -extremes[2] / (6 * pi) : 0};
+  if (count == 0) return {};
+  return {count, -2 * extremes[0], 2 * extremes[1], sums[1], -extremes[2] / (6 * pi), -extremes[3]};
 }
 
 bool Dem::inserts_particles() const {

@@ -32,6 +32,7 @@ struct ParticleCensus {
   double min_diameter = 0, max_diameter = 0;  // m; 0 without particles
   double solid_volume = 0;                    // m3
   double lightest_response = 0;               // smallest mass/(3 pi diameter), kg/m; 0 without particles
+  double lowest_density = 0;                  // kg/m3; 0 without particles
 };
 
 /// Owner of one LIGGGHTS instance that has read a user's script.

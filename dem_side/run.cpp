@@ -59,6 +59,7 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
                         {"collision_time", contacts.collision},
                         {"rayleigh_time", contacts.rayleigh},
                         {"lightest_response", census.lightest_response},
+                        {"lightest_particle", census.lowest_density},
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
                         {"closures", closures},
                         {"momentum", {momentum.x, momentum.y, momentum.z}},

@@ -259,6 +259,7 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.particle_count = particles.at("particle_count");
   facts.inserts_particles = particles.at("inserts_particles");
   facts.largest_solid_fraction = particles.at("largest_solid_fraction");
+  facts.lightest_particle = particles.value("lightest_particle", 0.0);
 }
 
 /// The first window's numbers; the flow has not moved, so its step is the one it starts with.

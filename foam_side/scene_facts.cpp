@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/scene_facts.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "coupler/base/errors.hpp"
@@ -68,6 +69,9 @@ SceneFacts fluid_facts(const Foam::argList& args) {
   SceneFacts facts;
   facts.surface_tension = dimensionedScalar("sigma", Foam::dimForce / Foam::dimLength, transport).value();
   facts.two_fluids = has_two_fluids(time, phases[0]);
+  for (const word& phase : phases)
+    facts.densest_fluid = std::max(
+        facts.densest_fluid, dimensionedScalar("rho", Foam::dimDensity, transport.subDict(phase)).value());
   const Foam::dictionary turbulence =
       read_dictionary(time, time.constant(), Foam::turbulenceModel::propertiesName);
   facts.turbulent = word(turbulence.lookup("simulationType")) != "laminar";

@@ -27,6 +27,7 @@ class Plan {
   void capillary_force(bool named, bool surface_tension);
   SuspensionViscosity suspension_viscosity(const ForceParameters& forces, bool porosity);
   void advise_on_drag(DragLaw chosen);
+  void advise_on_added_mass(const ForceParameters& forces);
   void empty_bulk_cells();
 
   std::vector<Decision> decisions;
@@ -139,6 +140,17 @@ void Plan::advise_on_drag(DragLaw chosen) {
       name_of(chosen), smallest, bed, known, known.substr(0, known.find(' '))));
 }
 
+// A particle lighter than the fluid is accelerated with the fluid around it, or too much.
+void Plan::advise_on_added_mass(const ForceParameters& forces) {
+  const double particle = facts_.lightest_particle, fluid = facts_.densest_fluid;
+  if (!with_particles_ || forces.added_mass > 0 || particle <= 0 || particle >= fluid) return;
+  advice.push_back(
+      fmt::format("forces: without added_mass the lightest particles, {:.3g} kg/m3 in a fluid of {:.4g} "
+                  "kg/m3, answer {:.2g} times "
+                  "too quickly to what accelerates them: {{added_mass: 0.5}}",
+                  particle, fluid, 1 + 0.5 * fluid / particle));
+}
+
 bool Plan::interface_advection() {
   const std::string name = "interface transport";
   if (forced_.interface_advection != Switch::automatic)
@@ -230,6 +242,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   scene.porosity = plan.porosity(scene.interchange);
   scene.suspension_viscosity = plan.suspension_viscosity(forces, scene.porosity);
   plan.advise_on_drag(forces.drag);
+  plan.advise_on_added_mass(forces);
   plan.empty_bulk_cells();
   scene.turbulence = plan.turbulence(scene.porosity);
   if (!plan.impossible.empty()) throw InputError(plan.impossible);

@@ -17,6 +17,8 @@ struct SceneFacts {
   long particle_count = 0;            // at the start
   bool inserts_particles = false;     // the script adds particles during the run
   double largest_solid_fraction = 0;  // on the bulk grid at the start, -
+  double densest_fluid = 0;           // kg/m3
+  double lightest_particle = 0;       // density at the start, kg/m3; 0 without particles
 };
 
 struct Decision {

@@ -320,5 +320,22 @@ TEST(NumbersTable, ShowsStepsPerWindowCellsAndParticles) {
   EXPECT_EQ(numbers_table({}), "fine cells    0 at the start\n") << "nothing about particles without any";
 }
 
+TEST(ScenePlan, AdvisesAddedMassForParticlesLighterThanTheFluid) {
+  SceneFacts facts;
+  facts.particles = true;
+  facts.particle_count = 1;
+  facts.densest_fluid = 1000;
+  facts.lightest_particle = 20;
+  ForceParameters forces;
+  ASSERT_EQ(plan_scene({}, facts, forces).advice.size(), 1u);
+  EXPECT_NE(plan_scene({}, facts, forces).advice[0].find("26 times too quickly"), std::string::npos)
+      << plan_scene({}, facts, forces).advice[0];
+  forces.added_mass = 0.5;
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+  forces.added_mass = 0;
+  facts.lightest_particle = 1000;
+  EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+}
+
 }  // namespace
 }  // namespace demvof
