@@ -30,7 +30,8 @@ Foam::dictionary solver_for_rest(const Flow& flow, const scalarField& missed) {
   Foam::dictionary solver(flux_solver(flow, false));
   const double all = Foam::gSumMag(scalarField(flow.porosity->rate.field() * volume));
   const double rest = Foam::gSumMag(scalarField(missed * volume));
-  if (rest > 0 && all > 0) solver.set("tolerance", solver.lookupOrDefault<scalar>("tolerance", 1e-6) * all / rest);
+  if (rest > 0 && all > 0)
+    solver.set("tolerance", solver.lookupOrDefault<scalar>("tolerance", 1e-6) * all / rest);
   return solver;
 }
 
