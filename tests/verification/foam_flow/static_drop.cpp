@@ -182,7 +182,7 @@ void static_drop(double end_time, const std::string& command) {
               1.05);
       record.note(name + ": capillary number at the end over " + program + "'s",
                   history.last() / reference.last());
-      bounded(name + ": liquid volume", history.water_error, end_time > short_time ? 2.4e-11 : 4e-14);
+      bounded(name + ": liquid volume", history.water_error, end_time > short_time ? 2.4e-11 : 3.9e-14);
       draw(name, history, "-");
     }
   }

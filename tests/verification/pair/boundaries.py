@@ -59,7 +59,7 @@ def periodic():
     RECORD.at_most("periodic: position, across against inside, over the box",
                    numpy.abs(states[0][0] - states[1][0]).max() / length, 4e-10)
     RECORD.at_most("periodic: velocity, across against inside",
-                   numpy.abs(states[0][1] - states[1][1]).max(), 1.4e-9, "m/s")
+                   numpy.abs(states[0][1] - states[1][1]).max(), 1.3e-9, "m/s")
     fallen = 0.03 - states[0][0][:, 2].max()
     RECORD.at_least("periodic: the beads fall by", fallen, 0.01, "m")
 

@@ -78,7 +78,7 @@ def main():
         bound = 0.02 if fine <= 0.625 else 0.1
         for ratio, e in zip(DENSITIES, error):
             record.at_most(f"{name}: density {ratio}: error of the depth / d", float(e), bound)
-        record.at_most(f"{name}: momentum exchange", result.results["conservation"]["exchange"], 4.5e-13)
+        record.at_most(f"{name}: momentum exchange", result.results["conservation"]["exchange"], 4.4e-13)
         worst.setdefault(f"fine cells of {fine} d", []).append((spacing, float(error.max())))
     if arguments.long:
         for series, points in worst.items():

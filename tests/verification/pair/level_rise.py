@@ -62,14 +62,14 @@ def main():
         from_volumes, from_alpha, surface = levels(run, fine)
         name = f"{cells} fine cells"
         record.at_most(f"{name}: start, liquid + beads against 0.3 m and the beads",
-                       abs(run.history["liquid_volume"][0] / WIDTH**2 - LEVEL), 1e-9 if long else 4e-14, "m")
+                       abs(run.history["liquid_volume"][0] / WIDTH**2 - LEVEL), 1e-9 if long else 3.6e-14, "m")
         record.note(f"{name}: level from volumes", from_volumes, "m")
         record.note(f"{name}: level from alpha", from_alpha, "m")
         record.note(f"{name}: mean height of alpha = 0.5", surface, "m")
-        record.at_most(f"{name}: level from volumes, error", abs(from_volumes - EXPECTED), 6e-12 if long else 2e-14, "m")
-        record.at_most(f"{name}: level from alpha, error", abs(from_alpha - EXPECTED), 6e-12 if long else 6e-14, "m")
+        record.at_most(f"{name}: level from volumes, error", abs(from_volumes - EXPECTED), 6e-12 if long else 1.1e-14, "m")
+        record.at_most(f"{name}: level from alpha, error", abs(from_alpha - EXPECTED), 6e-12 if long else 5.6e-14, "m")
         record.at_most(f"{name}: liquid volume, drift", run.results["conservation"]["liquid_volume"], 2e-11 if long else 1.5e-13)
-        record.at_most(f"{name}: momentum exchange", run.results["conservation"]["exchange"], 2e-13 if long else 5e-14)
+        record.at_most(f"{name}: momentum exchange", run.results["conservation"]["exchange"], 2e-13 if long else 4.3e-14)
         record.at_most(f"{name}: beads lost", run.number("particles.lost"), 0)
         record.note(f"{name}: kinetic energy of the beads at the end", run.history["particle_kinetic_energy"][-1], "J")
         record.note(f"{name}: run time", run.results["wall_seconds"]["total"], "s")
