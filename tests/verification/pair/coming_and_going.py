@@ -70,7 +70,7 @@ def pass_by(demvof, window):
                       for i in range(4) for j in range(2) for side in (-1, 1)]
     run = case.run(demvof)
     energy = run.history["mechanical_energy"]
-    return run.history["max_speed"].max(), energy.max() / energy[0] - 1
+    return run.history["max_speed"].max(), energy.max() / energy[0] - 1, run.results["conservation"]["solid_volume"]
 
 
 def main():
@@ -93,6 +93,7 @@ def main():
         record.at_most("on their way out: fastest layer over the fluid's speed", max(f.result()[1] for f in left), 1.35)
         record.at_most("surface beside a face of the bulk grid: largest speed", max(f.result()[0] for f in passed), 6e-3, "m/s")
         record.at_most("surface beside a face of the bulk grid: energy above that of the start", max(f.result()[1] for f in passed), 3e-5)
+        record.at_most("surface beside a face of the bulk grid: solid volume", max(f.result()[2] for f in passed), 2e-14)
     raise SystemExit(record.write())
 
 
