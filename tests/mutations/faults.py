@@ -48,7 +48,7 @@ FAULTS = [
     ("coupler/exchange/relaxation.hpp", "4 * std::max(solid - following, 0.0)",
      "0 * std::max(solid - following, 0.0)", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "? (1 + gain) / 1.2 :", "? (1 + gain) / 2.4 :", EXCHANGE),
-    ("coupler/exchange/relaxation.hpp", "(2 + h * q) / (2 + q)", "1", EXCHANGE),
+    ("coupler/exchange/relaxation.hpp", "(2 + h * q) / (2 + q)", "(2 + q) / (2 + q)", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "3 * h * (1 - h)", "0", EXCHANGE),
     ("coupler/exchange/books.hpp", "volume_before_ = balance.particle_volume;", "", EXCHANGE),
     ("coupler/exchange/relaxation.hpp", "density * particles.pressure_mobility / fluid_volume",
