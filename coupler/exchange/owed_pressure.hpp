@@ -6,9 +6,8 @@
 //
 //   O += left + g (V_e - V_s) dt_w - told
 //
-//     left  what the fluid's equation left to the particles of a bulk cell in the window, -sum of dt (1 -
-//     eps) V
-//           grad p, N s;  g: over the sum of dt (1 - eps) V, the mean gradient
+//     left  what the fluid's equation left to the particles of a bulk cell in the window,
+//           -sum of dt (1 - eps) V grad p, N s;  g: over the sum of dt (1 - eps) V, the mean gradient
 //     told  what they were given, -V_s grad p_seen dt_w, V_s: their volume when it was told
 //     V_e   mean of V_s over the fluid's steps, by the void fraction that moves on in the window
 //

@@ -163,8 +163,9 @@ class BoxCase:
         if done.returncode != 0:
             raise RuntimeError(f"{case_file}: exit code {done.returncode}\n{done.stdout[-3000:]}")
         run = Run(out)
-        if self.momentum_judged and "momentum" in run.results and "refinement" not in self.sections.get("fluid", {}):
-            MOMENTUM_ERRORS.append(max(run.results["momentum"]["error"]))
+        judged = run.results.get("momentum", {}).get("error")  # None where particles came or went in every window
+        if self.momentum_judged and judged and "refinement" not in self.sections.get("fluid", {}):
+            MOMENTUM_ERRORS.append(max(judged))
         return run
 
     # ---- fluid
