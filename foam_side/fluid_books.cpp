@@ -7,7 +7,8 @@
 //   shear              sum of dt eps mu_eff (|S| d(u)/dn + dev2(grad u^T).S)   over boundary faces; the
 //   second
 //                                                                  term of the velocity before
-//   carried in        -sum of dt rho_phi u                         over boundary faces
+//   carried in         what else the momentum matrix has at boundary faces: -sum of dt rho_phi u, with the
+//                      flux and the direction (inlet, outlet) that it was assembled with
 //   surface tension    sum of dt eps V sigma kappa grad alpha      over cells
 //
 // On meshes of equal hexahedra the cells' pressure gradients add up to the boundary's pressure exactly.
@@ -49,23 +50,26 @@ void for_each_boundary_face(const Foam::fvMesh& mesh, const Entry& enter) {
 
 void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
   const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
-  vector pressure = vector::zero, shear = vector::zero, carried = vector::zero;
+  const Foam::fvVectorMatrix& momentum = *flow.pressure_system.momentum;
+  vector pressure = vector::zero, shear = vector::zero, through = vector::zero;
   forAll(flow.mesh.boundary(), patch) {
     if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
     const Foam::vectorField& S = flow.mesh.Sf().boundaryField()[patch];
     const scalarField& area = flow.mesh.magSf().boundaryField()[patch];
     const Foam::vectorField slope(flow.U.boundaryField()[patch].snGrad());
+    through += Foam::sum(momentum.boundaryCoeffs()[patch] -
+                         Foam::cmptMultiply(momentum.internalCoeffs()[patch],
+                                            flow.U.boundaryField()[patch].patchInternalField()()));
     forAll(S, face) {
       const scalar eps = flow.porosity ? flow.porosity->eps.boundaryField()[patch][face] : 1.0;
       const scalar mu = flow.rho.boundaryField()[patch][face] * viscosity().boundaryField()[patch][face];
       pressure -= flow.p.boundaryField()[patch][face] * S[face];
       shear += eps * mu * area[face] * slope[face];
-      carried -= flow.rho_phi.boundaryField()[patch][face] * flow.U.boundaryField()[patch][face];
     }
   }
   books.boundary_pressure += dt * to_vec3(pressure);
   books.boundary_shear += dt * (to_vec3(shear) + books.explicit_stress);
-  books.carried_in += dt * to_vec3(carried);
+  books.carried_in += dt * to_vec3(through - shear);
 }
 
 void enter_cells(const Flow& flow, double dt, FluidBooks& books) {

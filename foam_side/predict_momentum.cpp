@@ -44,16 +44,19 @@ tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
       Foam::IOobject("rho", flow.time.timeName(), flow.mesh, Foam::IOobject::NO_READ,
                      Foam::IOobject::NO_WRITE, false),
       stress_share(flow) * flow.rho);
+  tmp<Foam::fvVectorMatrix> momentum =
+      Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
+      fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(stress_density, flow.U);
+  // After the matrix, which brings the boundary's velocity to the present time.
   if (flow.pimple.finalIter()) note_explicit_stress(flow, stress_density);
-  return Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
-         fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(stress_density, flow.U);
+  return momentum;
 }
 
 tmp<Foam::fvVectorMatrix> inertia_and_stress(Flow& flow) {
   if (flow.porosity) return porous_inertia_and_stress(flow);
-  if (flow.source && flow.pimple.finalIter()) note_explicit_stress(flow, flow.rho);
   tmp<Foam::fvVectorMatrix> momentum = fvm::ddt(flow.rho, flow.U) + fvm::div(flow.rho_phi, flow.U) +
                                        flow.turbulence->divDevRhoReff(flow.rho, flow.U);
+  if (flow.source && flow.pimple.finalIter()) note_explicit_stress(flow, flow.rho);
   if (extras(flow).rotating.active()) momentum.ref() += extras(flow).rotating.DDt(flow.rho, flow.U);
   return momentum;
 }

@@ -52,6 +52,8 @@ void AveragingInFluid::set_walls(const CellValues<BulkWalls>& walls) {
 void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& touched,
                              const std::vector<char>& outside, const std::vector<double>& radii) {
   touched_ = &touched;
+  relocation_ = {};
+  relief_ = {};
   outside_ = outside;
   if (everywhere_)
     weights_ = weights;
@@ -86,7 +88,12 @@ const CellValues<BulkParticles>& AveragingInFluid::deposit(const std::vector<Bul
     }
     deposited_ = deposit_records(counted);
   }
-  relief_ = limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_, walls_);
+  if (!relocation_.empty()) return deposited_;
+  LimitedSolid limited =
+      limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_, walls_);
+  relief_ = limited.relief;
+  relocation_ = std::move(limited.relocation);
+  if (!relocation_.empty()) deposited_ = relocation_.spread(deposited_);
   return deposited_;
 }
 

@@ -39,17 +39,18 @@ class AveragingInFluid {
   bool reached_by(int particle) const { return weights_.first[particle + 1] > weights_.first[particle]; }
 
   /// Sums the particles' contributions into the bulk cells they reach; what is above the largest solid
-  /// fraction of a cell moves to its neighbours. contributions: one per local particle. Returned: this rank's
-  /// cells.
+  /// fraction of a cell counts in its neighbours, with all that it brings, and is told of the fluid there
+  /// (limit_solid.hpp). contributions: one per local particle. Returned: this rank's cells.
   const CellValues<BulkParticles>& deposit(const std::vector<BulkParticles>& contributions);
-  /// Any records in the same way; nothing moves out of full cells.
+  /// Any records in the same way, after the first deposit() at these places.
   template <class T>
   CellValues<T> deposit_records(const std::vector<T>& records) {
     std::vector<T> touched(weights_.cells.size());
     demvof::deposit(weights_, reinterpret_cast<const double*>(records.data()), row_width<T>(),
                     reinterpret_cast<double*>(touched.data()));
     CellValues<T> owned = touched_->sum_to_owners(touched);
-    return diffusion_ ? diffusion_->spread(std::move(owned)) : owned;
+    if (diffusion_) owned = diffusion_->spread(std::move(owned));
+    return relocation_.empty() ? owned : relocation_.spread(owned);
   }
 
   /// This fluid at each local particle. owned: this rank's cells of the last deposit. Cells without fluid do
@@ -60,6 +61,7 @@ class AveragingInFluid {
   /// Records of this rank's cells at each local particle: their mean, cells without a record counting as T{}.
   template <class T>
   std::vector<T> sample_records(CellValues<T> owned) const {
+    if (!relocation_.empty()) owned = relocation_.gather(owned);
     if (diffusion_) owned = diffusion_->gather(std::move(owned));
     const std::vector<T> cells = touched_->fetch_from_owners(owned, T{});
     std::vector<T> means(weights_.particles());
@@ -70,7 +72,7 @@ class AveragingInFluid {
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
   CellValues<BulkParticles>& deposited() { return deposited_; }
-  /// What had to be moved out of full cells in the last deposit.
+  /// What had to be moved out of full cells with the particles where they are.
   const SolidRelief& relief() const { return relief_; }
   /// Left-over impulse that came for cells without drag in the last sample, this rank, N s: given to nobody.
   const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
@@ -92,6 +94,7 @@ class AveragingInFluid {
       own_solid_;  // share of each particle's own volume in the solid fraction that it samples, -
   const TouchedCells* touched_ = nullptr;
   CellValues<BulkParticles> deposited_;
+  Relocation relocation_;  // out of full cells, with the particles where they are
   SolidRelief relief_;
   Vec3 unplaced_left_over_;
 };

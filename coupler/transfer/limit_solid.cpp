@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coupler/transfer/limit_solid.hpp"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
+#include <cmath>
 #include <utility>
 
 #include "coupler/base/mpi_check.hpp"
-#include "coupler/grid/touched_cells.hpp"
 
 namespace demvof {
 namespace {
 
-// Cells this close above the limit (relative to it) are at the limit.
+// Cells this close to the limit (relative to it) are at the limit.
 constexpr double tolerance = 1e-12;
 // Excess in the middle of a full region of n cells across takes some n^2 rounds to get out.
 constexpr int most_rounds = 10000;
 
 /// What a cell above the limit gives to each face neighbour.
-struct Gift {
-  double share = 0;        // m3
+struct Offer {
+  double share = 0;        // of its volume, -
   double to_everyone = 0;  // 1: no neighbour is below the limit, all receive
 };
 
@@ -43,88 +40,49 @@ Excess total_excess(MPI_Comm world, const std::vector<double>& volume, const std
   return excess;
 }
 
-/// All cells of one rank, and the cells of other ranks beside them.
-class Neighbourhood {
- public:
-  Neighbourhood(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, int rank,
-                const CellValues<BulkWalls>& walls)
-      : own_(partition.end(rank) - partition.begin(rank)),
-        touched_(world, partition, around(grid, partition, rank)) {
-    std::iota(own_.begin(), own_.end(), partition.begin(rank));
-    const std::vector<BulkWalls> beside_walls = touched_.fetch_from_owners(walls, BulkWalls{});
-    for (const CellId cell : own_) {
-      Beside& cell_beside = beside_.emplace_back();
-      for (int face = 0; face < 6; ++face) {
-        const CellId other = grid.neighbour(grid.ijk(cell), face / 2, face % 2 ? 1 : -1);
-        const BulkWalls* own = find(walls, cell);
-        const bool upper = face % 2 == 1;
-        const bool wall = other >= 0 && (upper ? beside_walls[slot(other)].towards_lower(face / 2)
-                                               : own && own->towards_lower(face / 2));
-        cell_beside[face] = other < 0 || wall ? -1 : slot(other);
-      }
-    }
-  }
-  /// Slots of the face neighbours of each own cell, -1 beyond a wall.
-  using Beside = std::array<int, 6>;
-  const std::vector<Beside>& beside() const { return beside_; }
-  /// Values of own cells to values by slot.
-  template <class T>
-  std::vector<T> share(std::vector<T> own_values) const {
-    return touched_.fetch_from_owners(CellValues<T>{own_, std::move(own_values)}, T{});
-  }
-
- private:
-  static std::vector<CellId> around(const BulkGrid& grid, const BulkPartition& partition, int rank) {
-    std::vector<CellId> cells;
-    for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell)
-      for (int face = 0; face < 6; ++face) {
-        const CellId other = grid.neighbour(grid.ijk(cell), face / 2, face % 2 ? 1 : -1);
-        if (other >= 0) cells.push_back(other);
-      }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    return cells;
-  }
-  int slot(CellId cell) const {
-    const std::vector<CellId>& cells = touched_.cells();
-    return static_cast<int>(std::lower_bound(cells.begin(), cells.end(), cell) - cells.begin());
-  }
-  std::vector<CellId> own_;
-  TouchedCells touched_;
-  std::vector<Beside> beside_;
-};
-
-/// One round: every cell above the limit gives, and every cell adds up what its neighbours give to it in the
-/// order of its faces, wherever they are stored: hence the same sums on any number of ranks.
-void pass_on(const Neighbourhood& around, const std::vector<double>& limit, std::vector<double>& volume) {
-  std::vector<double> room(volume.size());
-  for (std::size_t c = 0; c < volume.size(); ++c) room[c] = limit[c] - volume[c];
+/// Every cell above the limit gives, and every cell counts what its neighbours give to it in the order of its
+/// faces, wherever they are stored: hence the same sums on any number of ranks.
+Relocation::Round next_round(const CellNeighbourhood& around, const std::vector<double>& limit,
+                             const std::vector<double>& volume) {
+  std::vector<double> room(volume.size());  // m3; 0 at the limit
+  for (std::size_t c = 0; c < volume.size(); ++c)
+    if (std::abs(limit[c] - volume[c]) > limit[c] * tolerance) room[c] = limit[c] - volume[c];
   const std::vector<double> beside_room = around.share(room);
-  std::vector<Gift> gifts(volume.size());
+  Relocation::Round round;
+  std::vector<Offer> offers(volume.size());
   for (std::size_t c = 0; c < volume.size(); ++c) {
-    if (volume[c] <= limit[c] * (1 + tolerance)) continue;
-    int with_room = 0, all = 0;
-    for (const int slot : around.beside()[c])
-      if (slot >= 0) {
-        ++all;
-        with_room += beside_room[slot] > 0;
+    if (room[c] >= 0) continue;
+    unsigned with_room = 0, all = 0;
+    for (int face = 0; face < 6; ++face)
+      if (const int slot = around.beside()[c][face]; slot >= 0) {
+        all |= 1u << face;
+        with_room |= unsigned{beside_room[slot] > 0} << face;
       }
-    if (all > 0) gifts[c] = {-room[c] / (with_room > 0 ? with_room : all), with_room > 0 ? 0.0 : 1.0};
+    if (!all) continue;
+    const unsigned receivers = with_room ? with_room : all;
+    offers[c] = {-room[c] / volume[c] / __builtin_popcount(receivers), with_room ? 0.0 : 1.0};
+    round.gifts.push_back({static_cast<int>(c), offers[c].share, receivers});
   }
-  const std::vector<Gift> beside_gift = around.share(gifts);
-  for (std::size_t c = 0; c < volume.size(); ++c) {
-    const bool has_room = room[c] > 0;
-    if (gifts[c].share > 0) volume[c] = limit[c];
+  const std::vector<Offer> beside = around.share(offers);
+  for (std::size_t c = 0; c < volume.size(); ++c)
     for (const int slot : around.beside()[c])
-      if (slot >= 0 && (has_room || beside_gift[slot].to_everyone > 0)) volume[c] += beside_gift[slot].share;
-  }
+      if (slot >= 0 && beside[slot].share > 0 && (room[c] > 0 || beside[slot].to_everyone > 0))
+        round.receipts.push_back({static_cast<int>(c), slot, beside[slot].share});
+  return round;
+}
+
+std::vector<double> volumes(const CellNeighbourhood& around, const CellValues<BulkParticles>& owned) {
+  std::vector<double> volume(around.cells().size());
+  for (std::size_t i = 0; i < owned.cells.size(); ++i)
+    volume[owned.cells[i] - around.cells().front()] = owned.values[i].solid_volume;
+  return volume;
 }
 
 }  // namespace
 
-SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
-                        double maximum_solid_fraction, const CellValues<double>& open_share,
-                        CellValues<BulkParticles>& owned, const CellValues<BulkWalls>& walls) {
+LimitedSolid limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
+                         double maximum_solid_fraction, const CellValues<double>& open_share,
+                         const CellValues<BulkParticles>& owned, const CellValues<BulkWalls>& walls) {
   const double whole = maximum_solid_fraction * grid.cell_volume();
   std::vector<double> given, limit(owned.cells.size(), whole);
   for (const BulkParticles& cell : owned.values) given.push_back(cell.solid_volume);
@@ -135,38 +93,27 @@ SolidRelief limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartitio
   }
   Excess excess = total_excess(world, given, limit);
   SolidRelief relief{static_cast<CellId>(excess.cells), excess.volume, 0};
-  if (relief.cells == 0) return relief;
+  if (relief.cells == 0) return {relief, {}};
 
-  int rank;
-  check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
-  const CellId begin = partition.begin(rank);
-  std::vector<double> volume(partition.end(rank) - begin, 0.0);
+  const auto around = std::make_shared<const CellNeighbourhood>(world, grid, partition, walls);
+  std::vector<double> volume = volumes(*around, owned);
   limit.assign(volume.size(), whole);
-  for (std::size_t i = 0; i < owned.cells.size(); ++i) volume[owned.cells[i] - begin] = given[i];
   for (std::size_t i = 0; i < open_share.cells.size(); ++i)
-    limit[open_share.cells[i] - begin] *= open_share.values[i];
+    limit[open_share.cells[i] - around->cells().front()] *= open_share.values[i];
   excess = total_excess(world, volume, limit);
-  if (excess.total > excess.room) return {relief.cells, 0, excess.volume};
+  if (excess.total > excess.room) return {{relief.cells, 0, excess.volume}, {}};
 
-  const Neighbourhood around(world, grid, partition, rank, walls);
-  for (int round = 0; excess.cells > 0 && round < most_rounds; ++round) {
-    pass_on(around, limit, volume);
+  std::vector<Relocation::Round> rounds;
+  while (excess.cells > 0 && rounds.size() < most_rounds) {
+    rounds.push_back(next_round(*around, limit, volume));
+    const CellValues<double> now =
+        Relocation(around, {rounds.back()}).spread(CellValues<double>{around->cells(), std::move(volume)});
+    volume = now.values;
     excess = total_excess(world, volume, limit);
   }
   relief.not_placed = excess.volume;
   relief.volume -= excess.volume;
-
-  CellValues<BulkParticles> relieved;
-  std::size_t known = 0;
-  for (std::size_t c = 0; c < volume.size(); ++c) {
-    const bool was_active = known < owned.cells.size() && owned.cells[known] == begin + CellId(c);
-    if (!was_active && volume[c] == 0) continue;
-    relieved.cells.push_back(begin + CellId(c));
-    relieved.values.push_back(was_active ? owned.values[known++] : BulkParticles{});
-    relieved.values.back().solid_volume = volume[c];
-  }
-  owned = std::move(relieved);
-  return relief;
+  return {relief, Relocation(around, std::move(rounds))};
 }
 
 }  // namespace demvof

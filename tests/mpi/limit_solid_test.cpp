@@ -15,6 +15,38 @@ namespace {
 
 using Volumes = std::map<CellId, double>;
 
+/// sum of q (R x) = sum of x (R^T q), and a uniform q stays uniform: particles gain what their cells lose.
+void expect_transpose(MPI_Comm comm, const BulkGrid& grid, const BulkPartition& partition,
+                      const Relocation& relocation) {
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  struct Pair {
+    double one = 0, other = 0;
+  };
+  CellValues<Pair> x, q;
+  CellValues<double> uniform;
+  for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell) {
+    const double number = static_cast<double>(cell);
+    if (cell % 3 != 0) x.cells.push_back(cell), x.values.push_back({std::sin(number), std::cos(3 * number)});
+    if (cell % 5 != 0) q.cells.push_back(cell), q.values.push_back({std::cos(number), std::sin(7 * number)});
+    uniform.cells.push_back(cell), uniform.values.push_back(3);
+  }
+  const auto product = [comm](const CellValues<Pair>& a, const CellValues<Pair>& b) {
+    Pair sum;
+    for (std::size_t i = 0; i < a.cells.size(); ++i)
+      if (const Pair* other = find(b, a.cells[i])) {
+        sum.one += a.values[i].one * other->one;
+        sum.other += a.values[i].other * other->other;
+      }
+    MPI_Allreduce(MPI_IN_PLACE, &sum.one, 2, MPI_DOUBLE, MPI_SUM, comm);
+    return sum;
+  };
+  const Pair spread = product(relocation.spread(x), q), gathered = product(relocation.gather(q), x);
+  EXPECT_NEAR(spread.one, gathered.one, 1e-12 * grid.cell_count());
+  EXPECT_NEAR(spread.other, gathered.other, 1e-12 * grid.cell_count());
+  for (const double value : relocation.gather(uniform).values) EXPECT_NEAR(value, 3, 1e-12);
+}
+
 /// Runs limit_solid on cells spread over the ranks of comm; all volumes afterwards, on every rank.
 struct Outcome {
   Volumes volumes;
@@ -32,7 +64,7 @@ Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volu
       owned.cells.push_back(cell);
       owned.values.emplace_back();
       owned.values.back().solid_volume = volume;
-      owned.values.back().drag_factor = 7 + static_cast<double>(cell);
+      owned.values.back().drag_factor = 7 * volume;
     }
   CellValues<double> open_share;
   for (const auto& [cell, share] : open_shares)
@@ -41,7 +73,12 @@ Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volu
       open_share.values.push_back(share);
     }
   Outcome outcome;
-  outcome.relief = limit_solid(comm, grid, partition, fraction, open_share, owned);
+  LimitedSolid limit = limit_solid(comm, grid, partition, fraction, open_share, owned);
+  outcome.relief = limit.relief;
+  if (!limit.relocation.empty()) {
+    expect_transpose(comm, grid, partition, limit.relocation);
+    owned = limit.relocation.spread(owned);
+  }
 
   std::vector<double> all(grid.cell_count(), -1.0);
   CellId before_this = -1;
@@ -50,8 +87,8 @@ Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volu
     before_this = owned.cells[i];
     EXPECT_EQ(partition.owner(owned.cells[i]), rank);
     all[owned.cells[i]] = owned.values[i].solid_volume;
-    EXPECT_EQ(owned.values[i].drag_factor, before.count(owned.cells[i]) ? 7 + owned.cells[i] : 0)
-        << "untouched";
+    EXPECT_NEAR(owned.values[i].drag_factor, 7 * owned.values[i].solid_volume, 1e-12)
+        << "what particles bring goes with their volume";
   }
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX, comm);
   for (CellId cell = 0; cell < grid.cell_count(); ++cell)

@@ -17,6 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
+THIN, OSCILLATING = ({f"^pair.{name}$": PAIR} for name in ("thin_bed", "oscillating_flow"))
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
@@ -89,8 +90,16 @@ FAULTS = [
      "sample.left_over_rate = fluid.left_over", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.cpp", "mean.pressure_gradient / mean.fluid",
      "mean.velocity / mean.fluid", AVERAGING),
-    ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - begin] *= open_share.values[i]",
-     "limit[open_share.cells[i] - begin] *= 1", AVERAGING),
+    ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - around->cells().front()] *= open_share.values[i]",
+     "limit[open_share.cells[i] - around->cells().front()] *= 1", AVERAGING),
+    ("coupler/transfer/relocation.hpp", "add(value, gift.share, beside[around_->beside()[gift.cell][face]]);",
+     "add(value, 0 * gift.share, beside[around_->beside()[gift.cell][face]]);", AVERAGING),
+    ("coupler/transfer/averaging_in_fluid.hpp", "if (!relocation_.empty()) owned = relocation_.gather(owned);",
+     "", THIN),
+    ("coupler/transfer/averaging_in_fluid.hpp", "return relocation_.empty() ? owned : relocation_.spread(owned);",
+     "return owned;", THIN),
+    ("foam_side/fluid_books.cpp", "Foam::cmptMultiply(momentum.internalCoeffs()[patch],",
+     "1.001 * Foam::cmptMultiply(momentum.internalCoeffs()[patch],", OSCILLATING),
     ("coupler/transfer/limited_slopes.cpp", "if (excess > 1) slope *=", "if (excess > 2) slope *=", MAPPING),
     ("coupler/transfer/limited_slopes.cpp", "const double weight = 1 / dot(d, d) / determinant;",
      "const double weight = 1 / determinant;", MAPPING),

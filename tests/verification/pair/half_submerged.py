@@ -55,7 +55,7 @@ def main():
                          log="xy")
             record.curve("gas", "density ratio", "largest integral of u.u in the gas, m5/s2", series, RATIOS, gas,
                          log="xy")
-    momentum_of_everything(record, 1.4e-6)  # the open side turns from outlet to inlet within a step
+    momentum_of_everything(record, 4.4e-13)
     return record.write()
 
 
