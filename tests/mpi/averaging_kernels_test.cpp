@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "coupler/config/enum_names.hpp"
 #include "coupler/transfer/axis_kernel.hpp"
@@ -336,6 +337,54 @@ TEST_F(AveragingKernels, SpheresLargerThanACell) {
         r.note(name, largest);
     });
   }
+}
+
+/// A sphere of four fifths of its cell, with a limit of one half: drag, further records and what is told move
+/// with the volume.
+TEST_F(AveragingKernels, FullCellsShareWhatTheyBringAndAreTold) {
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const BulkGrid grid({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
+  const BulkPartition partition(grid.cell_count(), ranks);
+  AveragingParameters parameters = averaging(Kernel::centre, 0);
+  parameters.maximum_solid_fraction = 0.5;
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  Set set;  // of the last rank alone
+  std::vector<BulkParticles> contributions;
+  if (rank == ranks - 1) {
+    set.add({1.5, 1.5, 1.5}, 0.3);
+    contributions.resize(1);
+    contributions[0].solid_volume = 0.8;
+    contributions[0].drag_factor = 8;
+  }
+  Averaging averaging(MPI_COMM_WORLD, grid, partition, parameters);
+  averaging.weigh(set.position, set.radius);
+  AveragingInFluid& fluid = averaging.in(0);
+  fluid.deposit(contributions);
+  const CellValues<BulkParticles> again = fluid.deposit_records(contributions);
+  const auto share = [&grid](CellId cell) {
+    const auto [i, j, k] = grid.ijk(cell);
+    const int steps = std::abs(i - 1) + std::abs(j - 1) + std::abs(k - 1);
+    return steps == 0 ? 5.0 / 8 : steps == 1 ? 3.0 / 48 : 0.0;
+  };
+  CellValues<BulkFluid> told;
+  double expected = 0;
+  for (CellId cell = 0; cell < grid.cell_count(); ++cell) {
+    const double number = static_cast<double>(cell * cell);
+    expected += share(cell) * number;
+    if (partition.owner(cell) != rank) continue;
+    for (const CellValues<BulkParticles>* owned : {&std::as_const(fluid).deposited(), &again}) {
+      const BulkParticles* particles = find(*owned, cell);
+      EXPECT_NEAR(particles ? particles->solid_volume : 0, 0.8 * share(cell), 1e-15);
+      EXPECT_NEAR(particles ? particles->drag_factor : 0, 8 * share(cell), 1e-14);
+    }
+    told.cells.push_back(cell);
+    told.values.emplace_back();
+    told.values.back().density = 1;
+    told.values.back().velocity.x = number;
+  }
+  for (const FluidAtParticle& felt : fluid.sample(told)) EXPECT_NEAR(felt.velocity.x, expected, 1e-12);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
-THIN, OSCILLATING = ({f"^pair.{name}$": PAIR} for name in ("thin_bed", "oscillating_flow"))
+OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
@@ -95,9 +95,9 @@ FAULTS = [
     ("coupler/transfer/relocation.hpp", "add(value, gift.share, beside[around_->beside()[gift.cell][face]]);",
      "add(value, 0 * gift.share, beside[around_->beside()[gift.cell][face]]);", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.hpp", "if (!relocation_.empty()) owned = relocation_.gather(owned);",
-     "", THIN),
+     "", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.hpp", "return relocation_.empty() ? owned : relocation_.spread(owned);",
-     "return owned;", THIN),
+     "return owned;", AVERAGING),
     ("foam_side/fluid_books.cpp", "Foam::cmptMultiply(momentum.internalCoeffs()[patch],",
      "1.001 * Foam::cmptMultiply(momentum.internalCoeffs()[patch],", OSCILLATING),
     ("coupler/transfer/limited_slopes.cpp", "if (excess > 1) slope *=", "if (excess > 2) slope *=", MAPPING),
