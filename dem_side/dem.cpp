@@ -20,6 +20,7 @@
 #include "domain.h"
 #include "fix_external.h"
 #include "fix_gravity.h"
+#include "fix_mesh_surface.h"
 #include "fix_property_atom.h"
 #include "input.h"
 #include "lammps.h"
@@ -247,8 +248,11 @@ bool Dem::inserts_particles() const {
 
 std::vector<std::string> Dem::moved_surfaces() const {
   std::vector<std::string> fixes;
-  for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
-    if (std::string_view(fix.style) == "move/mesh") fixes.emplace_back(fix.id);
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    auto* surface = dynamic_cast<LAMMPS_NS::FixMeshSurface*>(&fix);  // with surface_vel, surface_ang_vel
+    if (std::string_view(fix.style) == "move/mesh" || (surface && surface->surfaceVel()) ||
+        fix_has_word(script_, fix.id, "shear"))
+      fixes.push_back(fmt::format("{} ({})", fix.id, fix.style));
   });
   return fixes;
 }

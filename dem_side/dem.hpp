@@ -94,7 +94,7 @@ class Dem {
   ParticleDomain domain() const;
   ParticleCensus census() const;                    // collective
   bool inserts_particles() const;                   // the script has an insertion that is not over yet
-  std::vector<std::string> moved_surfaces() const;  // fixes that move one (move/mesh)
+  std::vector<std::string> moved_surfaces() const;  // fixes by which one moves, or counts as moving
   long inserted() const;   // particles that its insertions have put in so far, all ranks
   long taken_out() const;  // particles that its outlets (fix massflow/mesh) have deleted so far
 

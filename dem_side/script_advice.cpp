@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LIGGGHTS names what it does not like, not the line. Two things that stand in many scripts have a reason
-// that a user cannot guess: ranks that the script sets, and names that another coupling gives to its fixes.
+// What the text of a script tells. LIGGGHTS names what it does not like, not the line: two things that stand
+// in many scripts have a reason that a user cannot guess: ranks that the script sets, and names that another
+// coupling gives to its fixes.
 
 #include "dem_side/script_advice.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -79,6 +81,14 @@ std::string on_unknown_fixes(const std::filesystem::path& script) {
 }
 
 }  // namespace
+
+bool fix_has_word(const std::filesystem::path& script, const std::string& fix, const std::string& word) {
+  for (const Line& line : commands(script))
+    if (line.words.size() > 3 && line.words[0] == "fix" && line.words[1] == fix &&
+        std::find(line.words.begin() + 3, line.words.end(), word) != line.words.end())
+      return true;
+  return false;
+}
 
 std::string advice_on(const std::string& error, const std::filesystem::path& script) {
   if (error.find("processors") != std::string::npos) return on_ranks(script);

@@ -30,6 +30,17 @@ std::string_view objection(std::string_view style) {
   if (style == "buoyancy")
     return "the pressure gradient of the fluid already lifts the particles; remove the line, or unfix it "
            "before the script ends";
+  if (style == "setforce" || style == "planeforce" || style == "lineforce" || style == "aveforce" ||
+      style == "enforce2d")
+    return "it takes away forces that stand when it acts, and the fluid's come after it: its particles would "
+           "be moved by these alone. To hold particles: fix freeze, or fix move; a slice: walls, or one row "
+           "of periodic cells";
+  if (style == "dt/reset")
+    return "a time step that changes is not followed: the particles' time would run away from the fluid's; "
+           "give 'timestep' its smallest value, or unfix it before the script ends";
+  if (style == "momentum")
+    return "it takes momentum from the particles that the fluid has given them; remove the line, or unfix it "
+           "before the script ends";
   if (starts_with(style, "nve/") && style != "nve/sphere" && style != "nve/noforce")
     return "its particles do not move by the forces on them alone; use fix nve/sphere";
   return {};

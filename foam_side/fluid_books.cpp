@@ -3,7 +3,8 @@
 //
 //   liquid in         -sum of dt phi_liquid                        over boundary faces
 //   weight             sum of dt eps rho V g                       over cells
-//   pressure          -sum of dt p S                               over boundary faces, p total
+//   pressure          -sum of dt p S                               over boundary faces, p total, and over
+//                                                                  periodic ends, where it jumps
 //   shear              sum of dt eps mu_eff (|S| d(u)/dn + dev2(grad u^T).S)   over boundary faces; the
 //   second
 //                                                                  term of the velocity before
@@ -19,6 +20,7 @@
 
 #include "foam_side/flow.hpp"
 #include "foam_side/vectors.hpp"
+#include "processorCyclicFvPatch.H"
 
 namespace demvof {
 namespace {
@@ -48,13 +50,23 @@ void for_each_boundary_face(const Foam::fvMesh& mesh, const Entry& enter) {
   }
 }
 
+/// Periodic ends, on one rank or on two: p_rgh goes through, p = p_rgh + rho g.x jumps when gravity has a
+/// component along the period.
+bool joins_ends(const Foam::fvPatch& patch) {
+  return patch.coupled() &&
+         (!Foam::isA<Foam::processorFvPatch>(patch) || Foam::isA<Foam::processorCyclicFvPatch>(patch));
+}
+
 void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
   const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
   const Foam::fvVectorMatrix& momentum = *flow.pressure_system.momentum;
+  const tmp<surfaceScalarField> rho_f = fvc::interpolate(flow.rho);
   vector pressure = vector::zero, shear = vector::zero, through = vector::zero;
   forAll(flow.mesh.boundary(), patch) {
-    if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
     const Foam::vectorField& S = flow.mesh.Sf().boundaryField()[patch];
+    if (joins_ends(flow.mesh.boundary()[patch]))
+      pressure -= Foam::sum(flow.ghf.boundaryField()[patch] * rho_f().boundaryField()[patch] * S);
+    if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
     const scalarField& area = flow.mesh.magSf().boundaryField()[patch];
     const Foam::vectorField slope(flow.U.boundaryField()[patch].snGrad());
     through += Foam::sum(momentum.boundaryCoeffs()[patch] -

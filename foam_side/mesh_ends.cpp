@@ -141,7 +141,7 @@ void require_same_motion(const Flow& flow, const std::vector<std::string>& moved
   const bool mesh_moves = extras(flow).motion != MeshMotion::never;
   if (!moved.empty() && !mesh_moves && !has_wall_with_velocity(flow))
     throw InputError(fmt::format(
-        "foam_side and dem_side do not agree: the script moves a surface (fix {}, move/mesh), but no wall of "
+        "foam_side and dem_side do not agree: the script moves a surface (fix {}), but no wall of "
         "the "
         "fluid moves: the particles would be pushed through a fluid that stands still. A wall that moves "
         "along "

@@ -260,6 +260,9 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.inserts_particles = particles.at("inserts_particles");
   facts.largest_solid_fraction = particles.at("largest_solid_fraction");
   facts.lightest_particle = particles.value("lightest_particle", 0.0);
+  facts.dem_time_step = particles.value("time_step", 0.0);
+  facts.collision_time = particles.value("collision_time", 0.0);
+  facts.rayleigh_time = particles.value("rayleigh_time", 0.0);
 }
 
 /// The first window's numbers; the flow has not moved, so its step is the one it starts with.

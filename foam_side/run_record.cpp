@@ -338,8 +338,10 @@ RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   results.warnings = warnings(flow);
   results.warnings.insert(results.warnings.begin(), verdict.warnings.begin(), verdict.warnings.end());
   results.status = verdict.failure ? RunStatus::failed : status;
-  if (verdict.failure)
+  if (verdict.failure) {
     results.failure = RunFailure{"fluid", "judging the results", flow.time.value(), *verdict.failure};
+    fmt::print(stderr, "The run went to its end, and its results are wrong: {}\n", *verdict.failure);
+  }
   shared_->write();
   shared_->begun = false;  // nothing that comes now changes what was computed
   return results.status;

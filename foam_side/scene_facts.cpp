@@ -45,8 +45,9 @@ bool only_value(const Foam::entry& entry, std::optional<scalar>& reference) {
   return value == *reference;
 }
 
-/// Both fluids are present, at the start or at a boundary where one can come in.
-bool has_two_fluids(const Foam::Time& time, const word& phase) {
+/// The fraction of the first phase everywhere; none when both fluids are present, at the start or at a
+/// boundary where one can come in.
+std::optional<scalar> fraction_everywhere(const Foam::Time& time, const word& phase) {
   const Foam::localIOdictionary alpha(
       IOobject("alpha." + phase, time.timeName(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false),
       "volScalarField");
@@ -57,7 +58,10 @@ bool has_two_fluids(const Foam::Time& time, const word& phase) {
       for (const char* key : {"inletValue", "value"})
         if (const Foam::entry* entry = patch.dict().findEntry(key, Foam::keyType::LITERAL))
           one = only_value(*entry, value) && one;
-  return Foam::returnReduce(!one, Foam::orOp<bool>());
+  // A rank with one fluid alone may have the other one's neighbour.
+  const scalar low = Foam::returnReduce(value.value_or(1), Foam::minOp<scalar>());
+  const scalar high = Foam::returnReduce(value.value_or(0), Foam::maxOp<scalar>());
+  return Foam::returnReduce(one, Foam::andOp<bool>()) && low == high ? std::optional(high) : std::nullopt;
 }
 
 }  // namespace
@@ -68,10 +72,13 @@ SceneFacts fluid_facts(const Foam::argList& args) {
   const Foam::wordList phases(transport.lookup("phases"));
   SceneFacts facts;
   facts.surface_tension = dimensionedScalar("sigma", Foam::dimForce / Foam::dimLength, transport).value();
-  facts.two_fluids = has_two_fluids(time, phases[0]);
-  for (const word& phase : phases)
-    facts.densest_fluid = std::max(
-        facts.densest_fluid, dimensionedScalar("rho", Foam::dimDensity, transport.subDict(phase)).value());
+  const std::optional<scalar> fraction = fraction_everywhere(time, phases[0]);
+  facts.two_fluids = !fraction;
+  const auto density = [&transport](const word& phase) {
+    return dimensionedScalar("rho", Foam::dimDensity, transport.subDict(phase)).value();
+  };
+  if (!fraction || *fraction > 0) facts.liquid_density = density(phases[0]);
+  if (!fraction || *fraction < 1) facts.gas_density = density(phases[1]);
   const Foam::dictionary turbulence =
       read_dictionary(time, time.constant(), Foam::turbulenceModel::propertiesName);
   facts.turbulent = word(turbulence.lookup("simulationType")) != "laminar";

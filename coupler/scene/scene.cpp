@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/closures/drag_range.hpp"
@@ -28,6 +29,8 @@ class Plan {
   SuspensionViscosity suspension_viscosity(const ForceParameters& forces, bool porosity);
   void advise_on_drag(DragLaw chosen);
   void advise_on_added_mass(const ForceParameters& forces);
+  void advise_on_phases();
+  void advise_on_dem_step();
   void empty_bulk_cells();
 
   std::vector<Decision> decisions;
@@ -142,13 +145,36 @@ void Plan::advise_on_drag(DragLaw chosen) {
 
 // A particle lighter than the fluid is accelerated with the fluid around it, or too much.
 void Plan::advise_on_added_mass(const ForceParameters& forces) {
-  const double particle = facts_.lightest_particle, fluid = facts_.densest_fluid;
+  const double particle = facts_.lightest_particle,
+               fluid = std::max(facts_.liquid_density, facts_.gas_density);
   if (!with_particles_ || forces.added_mass > 0 || particle <= 0 || particle >= fluid) return;
   advice.push_back(
       fmt::format("forces: without added_mass the lightest particles, {:.3g} kg/m3 in a fluid of {:.4g} "
                   "kg/m3, answer {:.2g} times "
                   "too quickly to what accelerates them: {{added_mass: 0.5}}",
                   particle, fluid, 1 + 0.5 * fluid / particle));
+}
+
+void Plan::advise_on_phases() {
+  if (!facts_.two_fluids || facts_.liquid_density >= facts_.gas_density) return;
+  advice.push_back(fmt::format(
+      "transportProperties: the first of 'phases' counts as the liquid, and with {:.4g} kg/m3 it is lighter "
+      "than the other, {:.4g} kg/m3: liquid_volume, fronts, levels and the surface are those of the first",
+      facts_.liquid_density, facts_.gas_density));
+}
+
+// Longer steps give energy to particles that touch.
+void Plan::advise_on_dem_step() {
+  constexpr double most_of_collision = 0.2, most_of_rayleigh = 0.5;
+  if (!with_particles_) return;
+  for (const auto& [name, time, most] :
+       {std::tuple("a collision", facts_.collision_time, most_of_collision),
+        std::tuple("a Rayleigh wave", facts_.rayleigh_time, most_of_rayleigh)})
+    if (time > 0 && facts_.dem_time_step > most * time)
+      advice.push_back(fmt::format(
+          "the script's timestep, {:.3g} s, is {:.2g} of {} ({:.3g} s): contacts are not resolved and can "
+          "give particles energy out of nothing; a tenth or less is usual: shorter steps, or softer contacts",
+          facts_.dem_time_step, facts_.dem_time_step / time, name, time));
 }
 
 bool Plan::interface_advection() {
@@ -243,6 +269,8 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   scene.suspension_viscosity = plan.suspension_viscosity(forces, scene.porosity);
   plan.advise_on_drag(forces.drag);
   plan.advise_on_added_mass(forces);
+  plan.advise_on_phases();
+  plan.advise_on_dem_step();
   plan.empty_bulk_cells();
   scene.turbulence = plan.turbulence(scene.porosity);
   if (!plan.impossible.empty()) throw InputError(plan.impossible);

@@ -17,8 +17,12 @@ struct SceneFacts {
   long particle_count = 0;            // at the start
   bool inserts_particles = false;     // the script adds particles during the run
   double largest_solid_fraction = 0;  // on the bulk grid at the start, -
-  double densest_fluid = 0;           // kg/m3
+  double liquid_density = 0;          // of the first phase, kg/m3; 0: there is none of it
+  double gas_density = 0;             // of the second
   double lightest_particle = 0;       // density at the start, kg/m3; 0 without particles
+  double dem_time_step = 0;           // s
+  double collision_time = 0;          // shortest in a linear spring, s; 0: not known
+  double rayleigh_time = 0;           // of the particle with the shortest, s; 0: not known
 };
 
 struct Decision {

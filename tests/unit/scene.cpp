@@ -324,7 +324,8 @@ TEST(ScenePlan, AdvisesAddedMassForParticlesLighterThanTheFluid) {
   SceneFacts facts;
   facts.particles = true;
   facts.particle_count = 1;
-  facts.densest_fluid = 1000;
+  facts.two_fluids = false;
+  facts.liquid_density = 1000;
   facts.lightest_particle = 20;
   ForceParameters forces;
   ASSERT_EQ(plan_scene({}, facts, forces).advice.size(), 1u);
@@ -335,6 +336,30 @@ TEST(ScenePlan, AdvisesAddedMassForParticlesLighterThanTheFluid) {
   forces.added_mass = 0;
   facts.lightest_particle = 1000;
   EXPECT_TRUE(plan_scene({}, facts, forces).advice.empty());
+}
+
+TEST(ScenePlan, WarnsOfPhasesUpsideDownAndOfStepsLongerThanContacts) {
+  SceneFacts facts;
+  facts.liquid_density = 1.2;
+  facts.gas_density = 1000;
+  ASSERT_EQ(plan_scene({}, facts).advice.size(), 1u);
+  EXPECT_NE(plan_scene({}, facts).advice[0].find("first of 'phases'"), std::string::npos);
+  std::swap(facts.liquid_density, facts.gas_density);
+  EXPECT_TRUE(plan_scene({}, facts).advice.empty());
+
+  facts.particles = true;
+  facts.particle_count = 1;
+  facts.dem_time_step = 1e-4;
+  facts.collision_time = 5.1e-4;
+  facts.rayleigh_time = 2.1e-4;
+  EXPECT_TRUE(plan_scene({}, facts).advice.empty());
+  facts.collision_time = 3.7e-5;
+  ASSERT_EQ(plan_scene({}, facts).advice.size(), 1u);
+  EXPECT_NE(plan_scene({}, facts).advice[0].find("2.7 of a collision"), std::string::npos);
+  facts.collision_time = 0;
+  facts.rayleigh_time = 1e-4;
+  ASSERT_EQ(plan_scene({}, facts).advice.size(), 1u);
+  EXPECT_NE(plan_scene({}, facts).advice[0].find("1 of a Rayleigh wave"), std::string::npos);
 }
 
 }  // namespace

@@ -64,6 +64,20 @@ def periodic():
     RECORD.at_least("periodic: the beads fall by", fallen, 0.01, "m")
 
 
+def falling_along_a_period():
+    """Nothing holds water and beads but the pressure that jumps from end to end: they gain what the beads outweigh."""
+    case = BoxCase(scratch("boundaries/falling"), upper=(0.04, 0.04, 0.08), fine=(8, 8, 16), bulk=(4, 4, 8), end_time=0.05,
+                   window=1e-3, dem_step=1e-4, sides={side: Slip() for side in ("x-", "x+", "y-", "y+")})
+    case.sides.update({"z-": Cyclic(), "z+": Cyclic()})
+    for x, z in ((0.011, 0.005), (0.031, 0.047)):
+        case.particles.append(Particle((x, 0.02, z), 4e-3, 2500))
+    run = case.run(DEMVOF)
+    gained = run.history["fluid_momentum_z"] + run.history["particle_momentum_z"] + run.history["pending_momentum_z"]
+    expected = -9.81 * 2 * numpy.pi / 6 * 4e-3**3 * (2500 - 1000) * 0.05
+    RECORD.at_most("gravity along a period: momentum gained / exact - 1", abs((gained[-1] - gained[0]) / expected - 1), 0.0021)
+    RECORD.at_most("gravity along a period: momentum of everything", max(run.results["momentum"]["error"]), 5.8e-14)
+
+
 def refusals():
     case, _ = periodic_box("no_cyclic_patch", 0)
     case.sides.update({"x-": Wall(), "x+": Wall()})
@@ -268,7 +282,7 @@ def no_room_for_the_fluid():
     RECORD.at_most("no room for the fluid: exchange error", run.number("conservation.exchange"), 1.8e-15)
 
 
-TESTS = [periodic, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream,
+TESTS = [periodic, falling_along_a_period, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream,
          no_room_for_the_fluid]
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:

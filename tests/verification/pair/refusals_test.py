@@ -16,6 +16,7 @@ HEADER = "FoamFile {{ version 2.0; format ascii; class dictionary; object {}; }}
 STL = ("solid p\nfacet normal 0 0 1\nouter loop\nvertex 0.01 0.01 0.03\nvertex 0.02 0.01 0.03\nvertex 0.01 0.02 0.03\n"
        "endloop\nendfacet\nendsolid p\n")
 PISTON = "fix piston all mesh/surface file p.stl type 1\nfix push all move/mesh mesh piston linear 0.5 0 0\n"
+BELT = "fix belt all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0 shear x 0.1\n"
 SHAKEN = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicMotionSolverFvMesh;
 motionSolverLibs (fvMotionSolvers);
 solver solidBody;
@@ -72,7 +73,9 @@ TRIALS = {
     "name_of_another_coupling": (lambda: box("dragforce", script_tail="compute d all reduce sum f_dragforce[1]\n").write(), 2,
                                  ["in.particles:", "f_dragforce[1]", "CFDEMcoupling", "'forces'"]),
     "wall_that_moves_on_one_side": (lambda: box("piston", script_tail=PISTON, extra_files={"particles/p.stl": STL}).write(), 2,
-                                    ["fix push, move/mesh", "no wall of the fluid moves", "rotatingWallVelocity"]),
+                                    ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
+    "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
+                                     ["fix belt (wall/gran", "no wall of the fluid moves"]),
     "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
                         ["dynamicMeshDict", "with particles"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
