@@ -94,13 +94,19 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Dem dem(world.comm(), script, options.out / "particles.log",
           start ? restart_file(options.out, start->window) : fs::path());
   install_signal_handlers();
-  const int steps = steps_per_window(coupling.window, dem.time_step());
+  int steps = 0;  // of a window
+  if (coupling.adaptive_window)
+    require_whole_steps(coupling.end_time, dem.time_step());
+  else
+    steps = steps_per_window(coupling.window, dem.time_step());
   FluidForces forces(dem, parameters.forces);
   std::optional<Replacement> replacement;
   if (coupling.phase_interchange == PhaseInterchange::replacement)
     replacement.emplace(dem, coupling.interchange_speed);
-  if (start)
-    forces.go_on_from(coupling.window, steps_of_continued(options.out, start->window, dem, script.string()));
+  if (start) {
+    const int last = steps_of_continued(options.out, start->window, dem, script.string());
+    forces.go_on_from(coupling.adaptive_window ? last * dem.time_step() : coupling.window, last);
+  }
   dem.set_up();
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
@@ -153,13 +159,16 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Report report(dem);
   fallback_results.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
-  if (!start) output.write(0, coupling.window, forces, averaging, {});
+  if (!start) output.write(0, coupling.longest_window(), forces, averaging, {});
   WallSeconds seconds;
   link.start(deposited, report.window(forces, averaging, replaced_volume, seconds));
 
+  long dem_steps = 0;  // done here
   while (link.next_window()) {
-    run_stage().set("exchange with the fluid", link.end_time() - coupling.window);
+    run_stage().set("exchange with the fluid", link.begin_time());
     const FluidMessage fluid = link.fluid();
+    const double window = link.window_length();
+    if (plan.own_lengths()) steps = static_cast<int>(link.steps());
     FluidsAtParticles felt;
     {
       const Stopwatch watch(seconds.averaging);
@@ -170,13 +179,12 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
         averaging.see(fluid.surface);
         felt.surface = surface_at_particles();
       }
-      forces.begin_window(felt, coupling.window);
+      forces.begin_window(felt, window);
       for (int k = 0; k < plan.fluids && knows_sizes(parameters.forces.drag); ++k)
         forces.tell_sizes(k, sizes_around(dem.particles(), forces, k, averaging.in(k)));
     }
     if (replacement)
-      replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), felt.fluid[0],
-                                coupling.window);
+      replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), felt.fluid[0], window);
     if (link.number() == 1) {
       forces.first_half_step();  // the fluid is known now
       if (plan.schedule == Schedule::concurrent) {
@@ -206,11 +214,11 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     const ParticleReport said = report.window(forces, averaging, replaced_volume, seconds);
     link.close_window(said);
 
-    const long done_here = link.number() - plan.windows_before;
-    fallback_results.window(done_here, done_here * steps, said, report.count());
+    dem_steps += steps;
+    fallback_results.window(link.number() - plan.windows_before, dem_steps, said, report.count());
     if (!link.writes()) continue;
     run_stage().set("output", time);
-    output.write(time, coupling.window, forces, averaging, fluid.means);
+    output.write(time, window, forces, averaging, fluid.means);
     link.both_have_written(to_text(write_particle_restart(options.out, link.number(), dem, steps)));
   }
   link.close();

@@ -2,9 +2,12 @@
 #include "foam_side/bridge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
+#include "coupler/base/mpi_check.hpp"
 #include "foam_side/pressure_gradient.hpp"
 #include "foam_side/vectors.hpp"
 
@@ -31,6 +34,7 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
     : flow_(flow),
       owes_pressure_(flow.porosity && parameters.forces.pressure_gradient),
       tells_jump_(parameters.forces.capillary),
+      world_(world),
       window_(parameters.coupling.window),
       cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
       surface_(flow, cut_),
@@ -127,17 +131,70 @@ void Bridge::end_window() {
     owed_pressure_[k].end_window(particles_to_fine_.particles(static_cast<int>(k)));
 }
 
-std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
+WindowChange Bridge::change(double largest_speed) {
   surface_.look();
+  means_ = fluid_to_bulk_.means();
+  struct Cell {                                                      // of all fluids
+    double late = 0, solid_volume = 0, moved = 0, fluid_volume = 0;  // sum of V dv, m4/s; m3
+  };
+  std::map<CellId, Cell> cells;
+  for (int k = 0; k < static_cast<int>(means_.size()); ++k) {
+    const CellValues<BulkFluid>& now = means_[k].fluid;
+    const ParticlesToFine::InFluid& particles = particles_to_fine_.state()[k];
+    for (std::size_t i = 0; i < now.cells.size(); ++i) {
+      const CellId id = now.cells[i];
+      const BulkParticles* here = find(particles.particles, id);
+      const SeenFluid::Cell* told = find(seen_[k].cells(), id);
+      if (!here || !(now.values[i].density > 0)) continue;
+      const double* before = find(particles.before, id);
+      Cell& cell = cells[id];
+      cell.moved += here->solid_volume - (before ? *before : 0);
+      cell.fluid_volume += means_[k].fluid_volume[i];
+      cell.solid_volume += here->solid_volume;
+      if (told)
+        cell.late += here->solid_volume *
+                     late_velocity(*here, now.values[i].velocity - told->velocity,
+                                   now.values[i].pressure_gradient - told->pressure_gradient, window_);
+    }
+  }
+  WindowChange change;
+  LateVelocities late;
+  for (const auto& [id, cell] : cells) {
+    if (cell.solid_volume > 0) late.add(cell.late / cell.solid_volume, cell.solid_volume);
+    change.void_fraction = std::max(change.void_fraction, std::abs(cell.moved) / cell.fluid_volume);
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, late.volumes.data(), static_cast<int>(late.volumes.size()),
+                          MPI_DOUBLE, MPI_SUM, world_),
+            "MPI_Allreduce");
+  change.velocity = late.all_but(1e-2);
+  Foam::reduce(change.void_fraction, Foam::maxOp<double>());
+  const Vec3 width = cut_.grid().spacing();
+  change.way = largest_speed * window_ / std::min({width.x, width.y, width.z});
+  return change;
+}
+
+void Bridge::set_window(double window) {
+  pace_ = window_ > 0 ? std::min(1.0, window / window_) : 1;
+  window_ = window;
+  for (SeenFluid& fluid : seen_) fluid.set_window(window);
+  particles_to_fine_.set_window(window);
+}
+
+std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
+  if (means_.empty()) {
+    surface_.look();
+    means_ = fluid_to_bulk_.means();
+  }
   tension_ = unclaimed_ = {};
   std::vector<CellValues<BulkFluid>> fluids;
   int k = 0;
-  for (FluidToBulk::Means& means : fluid_to_bulk_.means()) {
+  for (FluidToBulk::Means& means : std::exchange(means_, {})) {
     shift_[k] = {means.fluid.cells, std::move(means.shift)};
     left_over_[k].hand_over(means.fluid);
     seen_[k].relax(means.fluid, means.fluid_volume, particles_to_fine_.particles(k));
     if (owes_pressure_)
-      owed_pressure_[k].tell(means.fluid, seen_[k].factors(), particles_to_fine_.particles(k), window_);
+      owed_pressure_[k].tell(means.fluid, seen_[k].factors(), particles_to_fine_.particles(k), window_,
+                             pace_);
     fluids.push_back(std::move(means.fluid));
     ++k;
   }

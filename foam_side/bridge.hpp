@@ -5,6 +5,7 @@
 #include "coupler/exchange/left_over.hpp"
 #include "coupler/exchange/owed_pressure.hpp"
 #include "coupler/exchange/seen_fluid.hpp"
+#include "coupler/exchange/window_rule.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/fluid_to_bulk.hpp"
 #include "foam_side/particles_to_fine.hpp"
@@ -47,6 +48,11 @@ class Bridge {
   /// The rest of the window's, and then what is owed as a whole.
   void end_window();
 
+  /// Where windows have their own lengths: what the window came to, over all ranks, after end_window; and the
+  /// length of the next one, s, before bulk_fluids. largest_speed: of a particle at its end, m/s.
+  WindowChange change(double largest_speed);
+  void set_window(double window);
+
   /// The fluid on the active bulk cells owned by this rank, relaxed, and the impulse owed to their particles,
   /// which is theirs from now on.
   std::vector<CellValues<BulkFluid>> bulk_fluids();
@@ -86,13 +92,16 @@ class Bridge {
   Flow& flow_;
   bool owes_pressure_;  // the fluid has a void fraction and its particles feel the pressure
   bool tells_jump_;     // of the surface: with the capillary force
-  double window_;       // s
-  Vec3 tension_;        // in this window, this rank, N s
-  Vec3 unclaimed_;      // what the pressure left to particles that feel none, likewise
+  MPI_Comm world_;
+  double window_;    // s
+  double pace_ = 1;  // at which owed pressure is returned (owed_pressure.hpp), -
+  Vec3 tension_;     // in this window, this rank, N s
+  Vec3 unclaimed_;   // what the pressure left to particles that feel none, likewise
   BulkCut cut_;
   SurfaceToBulk surface_;
   FluidToBulk fluid_to_bulk_;
   ParticlesToFine particles_to_fine_;
+  std::vector<FluidToBulk::Means> means_;  // of the end of the window, as far as they are known already
   // By fluid:
   std::vector<LeftOver> left_over_;
   std::vector<SeenFluid> seen_;

@@ -32,7 +32,12 @@ namespace demvof {
 
 ParticlesToFine::ParticlesToFine(Flow& flow, const BulkCut& cut, SurfaceToBulk& surface,
                                  const CouplingParameters& coupling)
-    : flow_(flow), cut_(cut), surface_(surface), coupling_(coupling), state_(surface.fluids()) {
+    : flow_(flow),
+      cut_(cut),
+      surface_(surface),
+      coupling_(coupling),
+      window_(coupling.window),
+      state_(surface.fluids()) {
   distribute();
 }
 
@@ -128,7 +133,7 @@ void ParticlesToFine::spread_sources() {
   for (int k = 0; k < surface_.fluids(); ++k) {
     std::vector<FluidSource> sources(touched_[k].size());
     for (std::size_t slot = 0; slot < sources.size(); ++slot) {
-      sources[slot] = fluid_source(coupling_.exchange, touched_[k][slot], coupling_.window);
+      sources[slot] = fluid_source(coupling_.exchange, touched_[k][slot], window_);
       if (cut_.shifts_velocity()) sources[slot].reference_velocity -= felt_shift_here_[k][slot];
     }
     // What the particles of a bulk cell have of their own in its fine cells.
@@ -216,7 +221,7 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     }
   }
   const double dt = flow_.time.deltaTValue();
-  const double done = 1 - (flow_.clock.window_end - flow_.time.value()) / coupling_.window;
+  const double done = 1 - (flow_.clock.window_end - flow_.time.value()) / window_;
   std::vector<CellValues<OwedPressure::Left>> left;
   for (int k = 0; k < fluids; ++k) {
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
@@ -248,7 +253,7 @@ ParticlesToFine::Impulses ParticlesToFine::impulses() const {
   forAll(source.force, cell) explicit_force += flow_.mesh.V()[cell] * source.force[cell];
   Foam::reduce(explicit_force, Foam::sumOp<vector>());
   Foam::reduce(implicit_impulse, Foam::sumOp<vector>());
-  return {coupling_.window * to_vec3(explicit_force), to_vec3(implicit_impulse)};
+  return {window_ * to_vec3(explicit_force), to_vec3(implicit_impulse)};
 }
 
 }  // namespace demvof

@@ -19,6 +19,9 @@ class ParticlesToFine {
  public:
   ParticlesToFine(Flow& flow, const BulkCut& cut, SurfaceToBulk& surface, const CouplingParameters& coupling);
 
+  /// The coming window's length, s; from the start that of coupling.window.
+  void set_window(double window) { window_ = window; }
+
   /// When the mesh has been cut anew.
   void renew() { distribute(); }
 
@@ -109,6 +112,7 @@ class ParticlesToFine {
   const BulkCut& cut_;
   SurfaceToBulk& surface_;
   const CouplingParameters& coupling_;
+  double window_;       // s
   bool taken_ = false;  // something, before
   // By fluid:
   std::vector<InFluid> state_;                         // as received

@@ -204,7 +204,7 @@ StateFiles all_files(const std::string& mine, const std::string& of_particles, c
 }
 
 void write_fluid_restart(const fs::path& run, long window, const Flow& flow, const ForceParameters& forces,
-                         const Bridge& bridge, const RunRecord& record) {
+                         const Bridge& bridge, const RunRecord& record, const WindowSteps& steps) {
   json exchange = json::array();
   for (const Bridge::State& fluid : bridge.state())
     exchange.push_back({{"particles", as_json(fluid.particles)},
@@ -216,7 +216,8 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().seen())},
-                      {"books", record.books()}};
+                      {"books", record.books()},
+                      {"window_steps", {steps.last, steps.next}}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
@@ -235,12 +236,13 @@ void write_fields(Flow& flow) {
 }
 
 void write_state(const fs::path& run, const CaseParameters& parameters, long window, Flow& flow,
-                 const Bridge& bridge, const RunRecord& record, FluidEnd& link, const OwnWorld& world) {
+                 const Bridge& bridge, const RunRecord& record, const WindowSteps& steps, FluidEnd& link,
+                 const OwnWorld& world) {
   run_stage().set("field output", flow.time.value());
   StateFiles files;
   on_every_rank(world, [&] {
     write_fields(flow);
-    write_fluid_restart(run, window, flow, parameters.forces, bridge, record);
+    write_fluid_restart(run, window, flow, parameters.forces, bridge, record, steps);
     add_state_folder(files, run, time_folder(flow));
     add_state_file(files, run, file_of_rank(run, window));
     if (world.rank() == 0) add_state_file(files, run, run / "history.csv", true);
@@ -277,8 +279,8 @@ CellValues<BulkSurface> read_seen_surface(const fs::path& run, long window) {
   }
 }
 
-void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge, RunRecord& record,
-                        const ParticleReport& particles) {
+WindowSteps read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge,
+                               RunRecord& record, const ParticleReport& particles) {
   const fs::path path = file_of_rank(run, window);
   try {
     std::ifstream stream(path, std::ios::binary);
@@ -293,6 +295,8 @@ void read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& br
     bridge.go_on_from(std::move(exchange));
     go_on(flow, state.at("flow"));
     record.go_on(flow, particles, window, state.at("books"));
+    const json& steps = state.at("window_steps");
+    return {steps.at(0), steps.at(1)};
   } catch (const json::exception& error) {
     throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
   } catch (const InputError& error) {

@@ -15,11 +15,17 @@ namespace demvof {
 /// or is cut: OpenFOAM itself looks only whether it could open the files. Collective.
 void write_fields(Flow& flow);
 
+/// Windows of their own lengths, DEM steps: of the last one, and what the next one may have.
+struct WindowSteps {
+  long last = 0, next = 0;
+};
+
 /// The state at the end of a window, from which the run can be continued: the fields; what their folder does
 /// not hold, one file per rank in restart_folder(); and when dem_side has written its part, too, that this is
 /// the latest state. Collective. Throws RunError on all ranks when a file cannot be written on any.
 void write_state(const std::filesystem::path& run, const CaseParameters& parameters, long window, Flow& flow,
-                 const Bridge& bridge, const RunRecord& record, FluidEnd& link, const OwnWorld& world);
+                 const Bridge& bridge, const RunRecord& record, const WindowSteps& steps, FluidEnd& link,
+                 const OwnWorld& world);
 
 /// Where the run goes on, its files of this rank as they were written. Throws InputError otherwise.
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
@@ -30,7 +36,7 @@ CellValues<BulkSurface> read_seen_surface(const std::filesystem::path& run, long
 
 /// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
 /// Throws InputError when a file is not there or not what was written.
-void read_fluid_restart(const std::filesystem::path& run, long window, Flow& flow, Bridge& bridge,
-                        RunRecord& record, const ParticleReport& particles);
+WindowSteps read_fluid_restart(const std::filesystem::path& run, long window, Flow& flow, Bridge& bridge,
+                               RunRecord& record, const ParticleReport& particles);
 
 }  // namespace demvof

@@ -18,7 +18,6 @@
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/run_lock.hpp"
 #include "coupler/scene/plan_windows.hpp"
-#include "coupler/scene/resolved_numbers.hpp"
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
 #include "foam_side/extras.hpp"
@@ -26,11 +25,11 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
+#include "foam_side/numbers_of_case.hpp"
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
-#include "foam_side/step_limits.hpp"
 
 namespace demvof {
 
@@ -129,8 +128,13 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   const CellValues<BulkWalls> walls = find_walls(flow.mesh, grid, link.mine(), world.comm());
   FluidEnd::Start first = link.start(bridge.cut().open_shares(), walls, surface.seen());
   bridge.take(std::move(first.particles));
+  const bool own_lengths = link.plan().own_lengths();
+  StepRange range;
+  if (own_lengths) range = step_range(*parameters.coupling.adaptive_window, link.plan().steps.length);
+  WindowSteps steps{range.shortest, range.shortest};
   if (start) {
-    read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
+    steps = read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
+    if (own_lengths) bridge.set_window(static_cast<double>(steps.last) * link.plan().steps.length);
     if (world.rank() == 0) go_back_to(options.out, *start);
   } else {
     if (flow.porosity) {
@@ -142,7 +146,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     record.start(flow, &first.report);
     write_fields(flow);
   }
-  flow.time.setEndTime(end_time + link.plan().window);  // the windows end the run, not controlDict
+  flow.time.setEndTime(end_time +
+                       parameters.coupling.longest_window());  // the windows end the run, not controlDict
   flow.time.write_when_told();
 
   const bool replaces = link.plan().interface;
@@ -189,6 +194,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
 
   while (link.next_window()) {
     run_stage().set("exchange with the particles", flow.time.value());
+    if (own_lengths) {
+      link.set_steps(steps.next);
+      bridge.set_window(link.window_length());
+    }
     link.window(fluid_message(), advance, take);
     RunRecord::Window done;
     done.number = link.number();
@@ -215,13 +224,23 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.relaxation = bridge.relaxed().smallest;
     done.relaxed_cells = bridge.relaxed().cells;
     done.particles = link.close_window();
+    if (own_lengths) {
+      const Stopwatch watch(seconds.mapping);
+      done.length = link.window_length();
+      done.change = bridge.change(done.particles->max_speed);
+      done.error = window_error(done.change, parameters.coupling.adaptive_window->tolerance);
+      // One cut short by an output says what the next would have come to.
+      const double part = static_cast<double>(link.steps()) / static_cast<double>(steps.next);
+      steps = {link.steps(), steps_of_next_window(steps.next, done.error / part, range)};
+    }
     seconds.waiting = link.statistics().waiting_seconds;
     seconds.exchange = link.statistics().exchange_seconds;
     done.seconds = seconds;
     done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
     done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
     record.window(flow, done, end_time);
-    if (link.writes()) write_state(options.out, parameters, link.number(), flow, bridge, record, link, world);
+    if (link.writes())
+      write_state(options.out, parameters, link.number(), flow, bridge, record, steps, link, world);
   }
   return link.done() ? RunStatus::completed : RunStatus::interrupted;
 }
@@ -265,37 +284,6 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.rayleigh_time = particles.value("rayleigh_time", 0.0);
 }
 
-/// The first window's numbers; the flow has not moved, so its step is the one it starts with.
-ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& flow, double surface_tension,
-                                 const std::optional<BulkGrid>& grid, const json& particles) {
-  ResolvedNumbers numbers;
-  numbers.fluid_time_step = flow.time.deltaTValue();
-  numbers.fine_cells = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
-  if (particles.is_null()) return numbers;
-  numbers.window = parameters.coupling.window;
-  numbers.windows = std::lround(parameters.coupling.end_time / numbers.window);
-  numbers.dem_time_step = particles.at("time_step");
-  numbers.dem_steps = std::lround(numbers.window / numbers.dem_time_step);
-  numbers.fluid_steps =
-      std::max(1L, static_cast<long>(std::ceil(numbers.window / numbers.fluid_time_step - 1e-9)));
-  numbers.fluid_time_step = numbers.window / static_cast<double>(numbers.fluid_steps);
-  numbers.bulk_cells = static_cast<long>(grid->cell_count());
-  numbers.bulk_spacing = std::min({grid->spacing().x, grid->spacing().y, grid->spacing().z});
-  numbers.particles = particles.at("particle_count");
-  const StepLimits limits(flow.time.controlDict());
-  const double rate = limits.room(courant_rates(flow));
-  if (limits.adjust && rate < 1e-3 / Foam::SMALL) numbers.courant_step = rate;
-  if (limits.adjust && limits.step < Foam::GREAT) numbers.longest_step = limits.step;
-  if (flow.scene.surface_tension) numbers.capillary_step = capillary_step(flow, surface_tension);
-  numbers.collision_time = particles.at("collision_time");
-  numbers.rayleigh_time = particles.at("rayleigh_time");
-  if (const double viscosity = Foam::gMax(dynamic_viscosity(flow)()); viscosity > 0)
-    numbers.drag_time = particles.at("lightest_response").get<double>() / viscosity;
-  numbers.min_diameter = particles.at("min_diameter");
-  numbers.max_diameter = particles.at("max_diameter");
-  return numbers;
-}
-
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
@@ -333,7 +321,9 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
   }
   Scene scene = plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
-  if (link) link->send_plan(plan_windows(parameters, scene, start ? start->window : 0));
+  if (link)
+    link->send_plan(plan_windows(parameters, scene, particles.at("time_step"),
+                                 start ? RunBefore{start->window, start->time} : RunBefore{}));
 
   run_stage().set("reading the fluid case");
   Foam::instant from;

@@ -42,7 +42,8 @@ std::vector<std::string> recorded_names(const CaseParameters& parameters, bool p
   std::vector<std::string> names;
   for (const Quantity& quantity : known_quantities) {
     const std::string name(quantity.name);
-    const bool of_particles = name == "particles" || name == "solid_front" ||
+    if (name == "window" && !parameters.coupling.adaptive_window) continue;
+    const bool of_particles = name == "particles" || name == "window" || name == "solid_front" ||
                               name.rfind("particle_", 0) == 0 || name.rfind("pending_", 0) == 0;
     if (particles || !of_particles) names.push_back(name);
   }
@@ -187,6 +188,11 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       results.cells.imbalance = flow.refinement->worst_imbalance;
     }
     results.cells.bulk_active_max = std::max(results.cells.bulk_active_max, window.active_cells);
+    if (parameters_.coupling.adaptive_window) {
+      RunResults::Windows& windows = results.window ? *results.window : results.window.emplace();
+      windows.enter(window.length, window.error);
+      window_ = window.length;
+    }
     results.relaxation.smallest = std::min(results.relaxation.smallest, window.relaxation);
     results.relaxation.cells += window.relaxed_cells;
     results.peak_memory_bytes.fluid = static_cast<std::int64_t>(memory);
@@ -240,6 +246,7 @@ Quantities RunRecord::all_quantities(const Flow& flow, const ParticleReport* par
   add_vector(q, "fluid_momentum", fluid_momentum(flow));
   if (!particles) return q;
   q["particles"] = particles->count;
+  if (parameters_.coupling.adaptive_window) q["window"] = window_;
   q["particle_kinetic_energy"] = particles->kinetic_energy;
   add_vector(q, "particle_momentum", particles->momentum);
   add_vector(q, "pending_momentum", books_->pending());

@@ -13,6 +13,7 @@
 #include "coupler/config/parameters.hpp"
 #include "coupler/config/program_options.hpp"
 #include "coupler/exchange/books.hpp"
+#include "coupler/exchange/window_rule.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/output/history.hpp"
 #include "coupler/output/progress.hpp"
@@ -51,12 +52,16 @@ class RunRecord {
   /// One window (with particles) or time step (without).
   struct Window {
     long number = 0, planned = 0;  // planned 0: not known
-    FluidReport fluid;             // liquid excepted: it is looked up
-    long active_cells = 0;         // of the bulk grid
-    double relaxation = 1;         // smallest relaxation factor of what the particles were told
-    long relaxed_cells = 0;        // bulk cells with a factor below 1
-    long negative_cells = 0;       // fine cells whose solid fraction was interpolated below 0
-    long full_cells = 0;           // fine cells with more solid than leaves room for the fluid
+    // Where windows have their own lengths: s, what it came to, and its error (window_rule.hpp), -.
+    double length = 0;
+    WindowChange change;
+    double error = 0;
+    FluidReport fluid;        // liquid excepted: it is looked up
+    long active_cells = 0;    // of the bulk grid
+    double relaxation = 1;    // smallest relaxation factor of what the particles were told
+    long relaxed_cells = 0;   // bulk cells with a factor below 1
+    long negative_cells = 0;  // fine cells whose solid fraction was interpolated below 0
+    long full_cells = 0;      // fine cells with more solid than leaves room for the fluid
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
     std::optional<ParticleReport> particles;      // not without particles
     FluidSeconds seconds;
@@ -87,6 +92,7 @@ class RunRecord {
   double initial_potential_ = 0;  // J
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
+  double window_ = 0;             // length of the last window, s, where each has its own
   std::optional<ParticleReport> last_particles_;
 
   /// Limits that acted, over the windows so far.

@@ -39,6 +39,7 @@ struct Checks {
   void ranges() const;
   void bulk_grid() const;
   void times() const;
+  void adaptive_window() const;
   void interchange() const;
   void scene() const;
 };
@@ -69,6 +70,9 @@ void Checks::ranges() const {
   };
   static constexpr Range reasonable[] = {{"coupling.end_time", 1e-12, 1e9},
                                          {"coupling.window", 1e-12, 1e9},
+                                         {"coupling.window.tolerance", 1e-12, 1e6},
+                                         {"coupling.window.shortest", 1e-12, 1e9},
+                                         {"coupling.window.longest", 1e-12, 1e9},
                                          {"coupling.time_out", 1e-3, 1e9},
                                          {"coupling.interchange_speed", 1e-12, 1e6},
                                          {"coupling.averaging.width", 1e-12, 1e6},
@@ -112,8 +116,25 @@ void Checks::bulk_grid() const {
   }
 }
 
+void Checks::adaptive_window() const {
+  const AdaptiveWindow& window = *c.coupling.adaptive_window;
+  const std::string longest = "coupling.window.longest", shortest = "coupling.window.shortest";
+  if (sound({longest, shortest}) && window.longest < window.shortest)
+    add(longest, fmt::format("{} s is less than shortest, {} s", window.longest, window.shortest));
+  if (sound({"coupling.end_time", shortest}) && c.coupling.end_time < window.shortest)
+    add("coupling.end_time",
+        fmt::format("{} s is less than {}, {} s", c.coupling.end_time, shortest, window.shortest));
+  if (sound({"coupling.schedule"}) && c.coupling.schedule == Schedule::concurrent)
+    add("coupling.schedule",
+        "concurrent needs windows of one length, a number for coupling.window: the fluid feels in each what "
+        "the "
+        "particles did in the one before, and in a shorter one their impulse would be a larger force");
+}
+
 void Checks::times() const {
-  if (sound({"coupling.end_time", "coupling.window"})) {
+  if (c.coupling.adaptive_window) {
+    adaptive_window();
+  } else if (sound({"coupling.end_time", "coupling.window"})) {
     const double end_time = c.coupling.end_time, window = c.coupling.window;
     const double windows = end_time / window;
     constexpr double tolerance = 1e-9;  // relative: the round-off of decimal input
@@ -157,7 +178,8 @@ void Checks::interchange() const {
   for (int axis = 0; axis < 3; ++axis)
     spacing =
         std::min(spacing, (c.bulk_grid->upper[axis] - c.bulk_grid->lower[axis]) / c.bulk_grid->cells[axis]);
-  const double largest = spacing / c.coupling.window;
+  if (!(c.coupling.longest_window() > 0)) return;
+  const double largest = spacing / c.coupling.longest_window();
   if (c.coupling.interchange_speed > largest)
     add(key, fmt::format("{} m/s is above {:.6g} m/s, a bulk cell in a window: give 0 to {:.6g}",
                          c.coupling.interchange_speed, largest, largest));

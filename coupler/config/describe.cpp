@@ -90,8 +90,12 @@ Json section_schema(const std::string& path, const CaseParameters& defaults) {
   for (const Section& section : case_sections()) {
     if (parent_of(section.path) != path) continue;
     const std::string name = name_of_key(section.path);
-    properties[name] =
+    const Json inside =
         section.is_list ? list_section_schema(section) : section_schema(section.path, defaults);
+    if (properties.contains(name))  // a value, or this
+      properties[name] = {{"oneOf", Json::array({properties[name], inside})}};
+    else
+      properties[name] = inside;
     if (section.presence == Section::Presence::required) required.push_back(name);
   }
   Json schema = Json::object();
@@ -115,8 +119,9 @@ std::string as_typed(const Json& value) {
 
 std::string key_row(const Key& key, const std::string& section, const CaseParameters& defaults) {
   const std::string fallback = key.required ? "required" : fmt::format("`{}`", as_typed(key.get(defaults)));
-  return fmt::format("| `{}` | {} | {} | {} |\n", key.path.substr(section.size() + 1), allowed_text(key.rule),
-                     fallback, key.doc);
+  const std::string map = find_section(key.path) ? fmt::format(", or a map: `{}`", key.path) : "";
+  return fmt::format("| `{}` | {}{} | {} | {} |\n", key.path.substr(section.size() + 1),
+                     allowed_text(key.rule), map, fallback, key.doc);
 }
 
 }  // namespace

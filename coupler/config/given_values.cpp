@@ -28,7 +28,8 @@ bool is_known(const std::string& path) {
 std::vector<std::string> names_inside(const std::string& path) {
   std::vector<std::string> names;
   for (const Section& section : case_sections())
-    if (parent_of(section.path) == path) names.push_back(name_of_key(section.path));
+    if (parent_of(section.path) == path && !find_key(section.path))
+      names.push_back(name_of_key(section.path));
   for (const Key& key : case_keys())
     if (parent_of(key.path) == path) names.push_back(name_of_key(key.path));
   return names;
@@ -153,6 +154,7 @@ void GivenValues::override_with(const std::string& assignment) {
   } else {
     // An override may open a section that the file does not have.
     for (std::string up = parent_of(path); !up.empty(); up = parent_of(up)) {
+      values_.erase(up);  // where a value may stand in place of the section
       sections_.emplace(up, *override_);
       sources_.emplace(up, *override_);
     }
@@ -175,6 +177,15 @@ void GivenValues::add_mistake(const Source& source, const std::string& key, cons
   mistake.key = key;
   mistake.text = text;
   mistakes_.push_back(mistake);
+}
+
+void GivenValues::forget_section(const std::string& path) {
+  sections_.erase(path);
+  for (const Key& key : case_keys())
+    if (parent_of(key.path) == path) {
+      values_.erase(key.path);
+      sources_.erase(key.path);
+    }
 }
 
 void GivenValues::walk_section(const YAML::Node& node, const std::string& path) {
@@ -233,13 +244,16 @@ void GivenValues::walk_item(const std::string& name, const YAML::Node& value, co
 void GivenValues::walk_value(const YAML::Node& value, const std::string& path, const Source& source) {
   sources_[path] = source;
   const Section* section = find_section(path);
-  if (!section) {
+  const bool either = section && find_key(path);  // a value or a map; the last one given counts
+  if (!section || (either && !value.IsMap())) {
     values_[path] = value;
+    if (either) forget_section(path);
   } else if (section->is_list ? !value.IsSequence() : !value.IsMap()) {
     add_mistake(source, path,
                 fmt::format("{} is not allowed; give a {} {}", given_text(value),
                             section->is_list ? "list of" : "map with", fmt::join(names_inside(path), ", ")));
   } else {
+    values_.erase(path);
     sections_[path] = source;
     section->is_list ? walk_list(value, path) : walk_section(value, path);
   }

@@ -31,6 +31,7 @@ class GivenValues {
  private:
   Source source_of(const YAML::Node& node) const;
   void add_mistake(const Source& source, const std::string& key, const std::string& text);
+  void forget_section(const std::string& path);
   void walk_section(const YAML::Node& node, const std::string& path);
   void walk_list(const YAML::Node& node, const std::string& path);
   void walk_list_entry(const YAML::Node& entry, const std::string& path, std::vector<std::string>& seen);

@@ -145,6 +145,12 @@ std::vector<Section> make_sections() {
           "cell; needed with particles.",
           DEMVOF_AT(bulk_grid)),
       {"coupling", "When and how the two sides exchange.", Presence::required},
+      optional_section(
+          "coupling.window",
+          "In place of a number: windows as long as their error allows, each a whole number of DEM "
+          "time steps; fields, particles and states are written at their times exactly "
+          "(docs/theory.md, Windows of their own lengths).",
+          DEMVOF_AT(coupling.adaptive_window)),
       {"coupling.averaging", "How particles are averaged onto the bulk grid."},
       {"coupling.mapping", "How values go between the bulk grid and the fine mesh."},
       forces,
@@ -192,12 +198,24 @@ std::vector<Key> make_keys() {
       required(key("bulk_grid.cells", list_of(3, integer(1, many_cells)),
                    "Number of bulk cells in each direction.", DEMVOF_AT(bulk_grid->cells))),
 
-      required(key("coupling.end_time", above(0, number("s")),
-                   "Simulated time at the end of the run, a whole number of windows.",
-                   DEMVOF_AT(coupling.end_time))),
+      required(key(
+          "coupling.end_time", above(0, number("s")),
+          "Simulated time at the end of the run, a whole number of windows (of DEM time steps where windows "
+          "have their own lengths).",
+          DEMVOF_AT(coupling.end_time))),
       required(key("coupling.window", above(0, number("s")),
                    "Both sides advance by one window between exchanges; a whole number of DEM time steps.",
                    DEMVOF_AT(coupling.window))),
+      required(key("coupling.window.tolerance", above(0, number("m/s")),
+                   "Change of a particle's velocity by the fluid that it may hear of a window late.",
+                   DEMVOF_AT(coupling.adaptive_window->tolerance))),
+      required(key("coupling.window.shortest", above(0, number("s")),
+                   "No window is shorter, but for those that end at an output with equal parts; the first "
+                   "one has this "
+                   "length.",
+                   DEMVOF_AT(coupling.adaptive_window->shortest))),
+      required(key("coupling.window.longest", above(0, number("s")), "No window is longer.",
+                   DEMVOF_AT(coupling.adaptive_window->longest))),
       key("coupling.schedule", one_of<Schedule>(),
           "Who advances when; staggered: the particles, then the fluid; concurrent: both at the same time, "
           "each with what the other did in the window before.",
@@ -215,7 +233,7 @@ std::vector<Key> make_keys() {
       key("coupling.interchange_speed", at_least(0, number("m/s")),
           "With replacement: a particle that closes in on the interface no faster than this stays a "
           "particle; "
-          "at most bulk spacing / window.",
+          "at most bulk spacing / window (the longest).",
           DEMVOF_AT(coupling.interchange_speed)),
       changes_no_result(key("coupling.time_out", above(0, number("s")),
                             "A side that hears nothing from its partner for so long gives up (exit code 4).",

@@ -22,8 +22,9 @@ struct Section {
   std::function<void(CaseParameters&)> create = [](CaseParameters&) {};
 };
 
-/// One key of the case file. Reading, checking, JSON Schema, reference and resolved configuration all
-/// work from this description and nothing else; the default is the one in parameters.hpp.
+/// One key of the case file; a section of the same path may be given in place of its value. Reading,
+/// checking, JSON Schema, reference and resolved configuration all work from this description and nothing
+/// else; the default is the one in parameters.hpp.
 struct Key {
   std::string path;  // "coupling.window"
   ValueRule rule;

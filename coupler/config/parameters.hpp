@@ -47,8 +47,10 @@ struct BulkGridParameters {
 };
 
 struct CouplingParameters {
-  double end_time = 0;  // s
-  double window = 0;    // s; a multiple of the DEM time step
+  double end_time = 0;                            // s
+  double window = 0;                              // s; a multiple of the DEM time step
+  std::optional<AdaptiveWindow> adaptive_window;  // then `window` is 0
+  double longest_window() const { return adaptive_window ? adaptive_window->longest : window; }
   Schedule schedule = Schedule::staggered;
   ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
   Sharing sharing = Sharing::mass;  // how a bulk cell's source is shared among its fine cells

@@ -51,6 +51,7 @@ inline constexpr std::array known_quantities = {
     Quantity{"pending_momentum_y", "kg m/s", "its y component"},
     Quantity{"pending_momentum_z", "kg m/s", "its z component"},
     Quantity{"particles", "-", "number of particles in the run"},
+    Quantity{"window", "s", "length of the last window, where windows have their own lengths"},
 };
 
 /// The table's entry, or nullptr when there is no quantity of that name.

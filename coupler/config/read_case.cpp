@@ -26,7 +26,7 @@ CaseParameters fill(const std::string& file, const GivenValues& given, Mistakes&
         mistakes.push_back(Mistake{given.sources().at(key.path), key.path, *mistake});
       else
         key.set(parameters, value);
-    } else if (key.required && given.section_given(section)) {
+    } else if (key.required && given.section_given(section) && !given.section_given(key.path)) {
       mistakes.push_back(
           Mistake{given.sources().at(section), key.path, "missing; give " + allowed_text(key.rule)});
     }

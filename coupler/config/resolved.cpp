@@ -23,6 +23,7 @@ Json configuration(const CaseParameters& parameters, Wanted wanted) {
   for (const Key& key : case_keys()) {
     const std::string section = parent_of(key.path), name = name_of_key(key.path);
     if (!present(parameters, section) || !wanted(key)) continue;
+    if (find_section(key.path) && present(parameters, key.path)) continue;  // the map in place of the value
     Json& place = place_of(root, section);
     const Json value = key.get(parameters);
     if (!find_section(section)->is_list) {

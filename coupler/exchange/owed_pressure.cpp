@@ -11,7 +11,7 @@
 namespace demvof {
 
 void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
-                        const CellValues<BulkParticles>& particles, double window) {
+                        const CellValues<BulkParticles>& particles, double window, double pace) {
   seen_ = {};
   heard_.clear();
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
@@ -25,7 +25,7 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
     seen_ += given;
     const auto owed = owed_.find(cell);
     if (owed == owed_.end()) continue;
-    const Vec3 part = 0.5 * relaxation[i] * owed->second.impulse;
+    const Vec3 part = 0.5 * pace * relaxation[i] * owed->second.impulse;
     gradient -= part / (here->solid_volume * window);
     owed->second.impulse -= part;
     seen_ += part;

@@ -11,7 +11,8 @@
 //     told  what they were given, -V_s grad p_seen dt_w, V_s: their volume when it was told
 //     V_e   mean of V_s over the fluid's steps, by the void fraction that moves on in the window
 //
-//   grad p_seen = grad p - eta O/(V_s dt_w),   eta = omega/2
+//   grad p_seen = grad p - eta O/(V_s dt_w),   eta = omega/2, in a window shorter than the one before times
+//                                              dt_w over its length: so much has come of the longer one
 //
 // The particles are given the pressure of where they were when it was told. -g (V_e - V_s) dt_w was left
 // where they were not, and the fluid of the cell gets it back: owed to those who come there, it would pull a
@@ -34,9 +35,10 @@ namespace demvof {
 class OwedPressure {
  public:
   /// Adds a part of what is owed to the gradient that the particles are told, and notes what they are given.
-  /// relaxation: omega, per cell of fluid; particles: those that will hear it; window: dt_w, s.
+  /// relaxation: omega, per cell of fluid; particles: those that will hear it; window: dt_w, s; pace: of the
+  /// return, its length over that of the window before if that was longer, else 1.
   void tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
-            const CellValues<BulkParticles>& particles, double window);
+            const CellValues<BulkParticles>& particles, double window, double pace = 1);
 
   /// What the fluid's equation left to the particles of a cell in a part of the window.
   struct Left {

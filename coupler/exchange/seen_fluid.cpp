@@ -7,6 +7,7 @@
 
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/exchange/relaxation.hpp"
+#include "coupler/exchange/window_rule.hpp"
 
 namespace demvof {
 
@@ -18,7 +19,8 @@ void approach(Vec3& now, const Vec3& before, double omega) {
 
 }  // namespace
 
-double SeenFluid::factor(double density, double fluid_volume, const BulkParticles& particles) const {
+double SeenFluid::factor(double density, double fluid_volume, const BulkParticles& simulated) const {
+  const BulkParticles particles = ratio_ == 1 ? simulated : over_window(simulated, ratio_);
   const double gain = parameters_.fluid_moves ? making_way_gain(particles, density, fluid_volume) : 0;
   if (!hands_back_left_over(parameters_.exchange)) return relaxation_factor(parameters_.schedule, gain, 0);
   const double response = particles.drag_response * parameters_.window / (density * fluid_volume);

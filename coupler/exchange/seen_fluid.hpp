@@ -20,6 +20,12 @@ class SeenFluid {
   };
   explicit SeenFluid(const Parameters& parameters) : parameters_(parameters) {}
 
+  /// The coming window's length, s. The particles that will hear the fluid are of the window before.
+  void set_window(double window) {
+    ratio_ = parameters_.window > 0 ? window / parameters_.window : 1;
+    parameters_.window = window;
+  }
+
   /// Velocity and pressure gradient, relaxed in place; they count as told. fluid_volume: of these cells,
   /// between the particles, m3; particles: those that will hear it. A cell whose particles were told nothing
   /// before is told the fluid as it is.
@@ -52,9 +58,10 @@ class SeenFluid {
   void go_on_from(CellValues<Cell> seen) { seen_ = std::move(seen); }
 
  private:
-  double factor(double density, double fluid_volume, const BulkParticles& particles) const;
+  double factor(double density, double fluid_volume, const BulkParticles& simulated) const;
 
   Parameters parameters_;
+  double ratio_ = 1;  // of the coming window to the particles', -
   CellValues<Cell> seen_;
   std::vector<double> factor_;  // of these, -
   Relaxed relaxed_;

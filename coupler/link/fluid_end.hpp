@@ -27,6 +27,10 @@ class FluidEnd : public PairEnd {
   Start start(const CellValues<double>& open_shares, const CellValues<BulkWalls>& walls = {},
               const CellValues<BulkSurface>& surface = {});
 
+  /// Where windows have their own lengths, after next_window: this one has at most so many DEM steps, and no
+  /// more than equal parts of what is left to the next output.
+  void set_steps(long wanted);
+
   /// One window: tells the particles the fluid, lets the fluid advance and takes what the particles did, in
   /// the order of the plan's schedule.
   void window(const FluidMessage& fluid, const std::function<void()>& advance,

@@ -2,9 +2,14 @@
 // Both ends in one file: each message is sent and received side by side.
 #include "coupler/link/pair_end.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "coupler/exchange/window_rule.hpp"
 #include "coupler/link/fluid_end.hpp"
 #include "coupler/link/output_due.hpp"
 #include "coupler/link/particle_end.hpp"
@@ -19,8 +24,12 @@ void require(bool planned, const std::optional<T>& message) {
 
 }  // namespace
 
+double PairEnd::time_of_step(long step) const {
+  return std::stod(fmt::format("{:.15g}", static_cast<double>(step) * plan_.steps.length));
+}
+
 bool PairEnd::writes() const {
-  return number_ == plan_.windows || !goes_on_ || output_due(number_, plan_.window, plan_.output_interval);
+  return done() || !goes_on_ || output_due(begin_time(), end_time(), plan_.output_interval);
 }
 
 // The start.
@@ -53,11 +62,19 @@ void ParticleEnd::start(const std::vector<CellValues<BulkParticles>>& particles,
 
 // A window.
 
+void FluidEnd::set_steps(long wanted) {
+  long until = plan_.steps.whole_run;
+  if (plan_.output_interval > 0)
+    until = std::min(until, next_output_step(first_step_, plan_.steps.length, plan_.output_interval));
+  steps_ = equal_part(until - first_step_, wanted);
+}
+
 void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& advance,
                       const std::function<void(ParticleMessage)>& take) {
   require_one_per_fluid(fluid.means);
   if (plan_.gradients) require_one_per_fluid(fluid.gradients);
   require(plan_.interface, fluid.interface);
+  if (plan_.own_lengths()) link_.send_record(steps_);
   if (plan_.fluids > 1) link_.send(fluid.surface);
   for (const CellValues<BulkFluid>& means : fluid.means) link_.send(means);
   for (int k = 0; k < plan_.fluids && plan_.gradients; ++k) link_.send(fluid.gradients[k]);
@@ -81,6 +98,7 @@ void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& ad
 }
 FluidMessage ParticleEnd::fluid() {
   FluidMessage fluid;
+  if (plan_.own_lengths()) steps_ = link_.receive_record<long>();
   if (plan_.fluids > 1) fluid.surface = link_.receive<BulkSurface>();
   for (int k = 0; k < plan_.fluids; ++k) fluid.means.push_back(link_.receive<BulkFluid>());
   for (int k = 0; k < plan_.fluids && plan_.gradients; ++k)

@@ -30,18 +30,34 @@ class PairEnd {
 
   /// Goes to the next window; false when the last one is done, or a side asked for an end.
   bool next_window() {
-    if (!goes_on_ || number_ >= plan_.windows) return false;
+    if (!goes_on_ || done()) return false;
     ++number_;
+    first_step_ += steps_;
+    steps_ = 0;
     return true;
   }
-  /// Number of the present window, from 1, and the time at its end, s.
+  /// Number of the present window, from 1, the times at its begin and end, and its length, s. Where windows
+  /// have their own lengths the latter two are known from FluidEnd::set_steps and ParticleEnd::fluid on.
   long number() const { return number_; }
-  double end_time() const { return static_cast<double>(number_) * plan_.window; }
+  double begin_time() const {
+    return plan_.own_lengths() ? time_of_step(first_step_) : static_cast<double>(number_ - 1) * plan_.window;
+  }
+  double end_time() const {
+    return plan_.own_lengths() ? time_of_step(first_step_ + steps_)
+                               : static_cast<double>(number_) * plan_.window;
+  }
+  double window_length() const {
+    return plan_.own_lengths() ? static_cast<double>(steps_) * plan_.steps.length : plan_.window;
+  }
+  /// Its DEM steps, where windows have their own lengths.
+  long steps() const { return steps_; }
   /// False once a side has asked for an end before that of the plan.
   bool goes_on() const { return goes_on_; }
 
   /// The last window of the plan is done: a stop asked for in it changes nothing.
-  bool done() const { return number_ >= plan_.windows; }
+  bool done() const {
+    return plan_.own_lengths() ? first_step_ + steps_ >= plan_.steps.whole_run : number_ >= plan_.windows;
+  }
 
   /// At the end of a window: whether both sides now write what the run can be continued from, and that both
   /// have. files: of this side (state_files.hpp); returned are the partner's.
@@ -60,13 +76,19 @@ class PairEnd {
   void start_with(const WindowPlan& plan) {
     plan_ = plan;
     number_ = plan.windows_before;
+    first_step_ = plan.steps.before;
   }
   void agree() { goes_on_ = link_.agree_to_continue(); }
 
   Link link_;
   WindowPlan plan_;
 
+  long first_step_ = 0, steps_ = 0;  // DEM steps before the present window, and of it
+
  private:
+  /// s. To 15 digits, so that a time a user has written in decimals is that time.
+  double time_of_step(long step) const;
+
   long number_ = 0;
   bool goes_on_ = true;
 };

@@ -18,10 +18,16 @@ struct WindowPlan {
   int fluids = 1;           // 2: BulkSurface comes first; then one message for the liquid and one for the gas
   bool gradients = false;   // BulkFluidGradients follow BulkFluid
   bool interface = false;   // BulkInterface follows them, and Droplet BulkParticles
-  long windows = 0;         // of the whole run
+  long windows = 0;         // of the whole run; 0: not known
   long windows_before = 0;  // done by the run that this one continues
-  double window = 0;        // length, s
+  double window = 0;        // length of all, s; 0: each has its own, which the fluid says before it begins
+  struct Steps {            // then times are counted in DEM steps
+    double length = 0;      // of one, s
+    long whole_run = 0, before = 0;
+  } steps;
   double output_interval = 0;  // both sides write their state at its multiples, s; 0: at the end alone
+
+  bool own_lengths() const { return window == 0; }
 };
 
 /// The fluid at the start of a window, on the active bulk cells; what the plan leaves out is not there.

@@ -123,7 +123,9 @@ bool same_place(const Vec3& a, const Vec3& b, double size) {
 void require_fit(const fs::path& run, const RestartPoint& point, const StateFrame& now, double end_time) {
   const StateFrame& then = point.frame;
   require_same(run, std::abs(then.window_length - now.window_length) <= 1e-12 * then.window_length,
-               "coupling.window", fmt::format("{} s", then.window_length));
+               "coupling.window",
+               then.window_length > 0 ? fmt::format("{} s", then.window_length)
+                                      : "a map: windows of their own lengths");
   require_same(run, now.bulk_cells == then.bulk_cells, "bulk_grid.cells",
                fmt::format("[{}]", fmt::join(then.bulk_cells, ", ")));
   const double size = norm(then.bulk_upper - then.bulk_lower);
@@ -132,7 +134,7 @@ void require_fit(const fs::path& run, const RestartPoint& point, const StateFram
   require_same(run, same_place(then.bulk_upper, now.bulk_upper, size), "bulk_grid.upper",
                fmt::format("[{}]", fmt::join(corner(then.bulk_upper), ", ")));
   require_same(run, now.fluid_ranks == then.fluid_ranks, "fluid.ranks", std::to_string(then.fluid_ranks));
-  if (end_time < point.time + 0.5 * then.window_length)
+  if (end_time < point.time + 0.5 * then.window_length || end_time <= point.time * (1 + 1e-9))
     throw InputError(fmt::format("--continue: the run in {} is at {} s already; set coupling.end_time later",
                                  run.string(), point.time));
 }

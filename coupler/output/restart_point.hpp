@@ -15,7 +15,7 @@ namespace demvof {
 
 /// What a state of a run belongs to: a run that goes on from it has to have the same.
 struct StateFrame {
-  double window_length = 0;  // s
+  double window_length = 0;  // s; 0: windows have their own lengths
   Vec3 bulk_lower, bulk_upper;
   std::array<int, 3> bulk_cells{};
   int fluid_ranks = 1;

@@ -78,6 +78,11 @@ std::string results_json(const RunResults& r) {
   json["peak_memory_bytes"] = {{"fluid", r.peak_memory_bytes.fluid},
                                {"particles", r.peak_memory_bytes.particles}};
   json["steps"] = {{"windows", r.steps.windows}, {"fluid", r.steps.fluid}, {"particles", r.steps.particles}};
+  if (r.window)
+    json["window"] = {{"shortest", r.window->shortest},
+                      {"longest", r.window->longest},
+                      {"largest_error", r.window->largest_error},
+                      {"over", r.window->over}};
   json["cells"] = {{"fine_min", r.cells.fine_min},
                    {"fine_max", r.cells.fine_max},
                    {"bulk", r.cells.bulk},

@@ -57,6 +57,20 @@ struct RunResults {
   struct {
     long initial = 0, inserted = 0, left = 0, lost = 0, outside_fluid = 0, final = 0;
   } particles;
+  /// Where windows have their own lengths.
+  struct Windows {
+    double shortest = 0, longest = 0;  // s
+    double largest_error = 0;          // over what is allowed, - (window_rule.hpp)
+    long over = 0;                     // with an error above 1
+
+    void enter(double length, double error) {
+      shortest = longest > 0 ? std::min(shortest, length) : length;
+      longest = std::max(longest, length);
+      largest_error = std::max(largest_error, error);
+      over += error > 1;
+    }
+  };
+  std::optional<Windows> window;
   struct {
     double smallest = 1;  // relaxation factor of what the particles were told of the fluid (relaxation.hpp)
     long cells = 0;       // bulk cells times windows in which it was below 1

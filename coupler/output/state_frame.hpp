@@ -9,7 +9,7 @@ namespace demvof {
 /// What a state of this case belongs to.
 inline StateFrame state_frame(const CaseParameters& parameters, int fluid_ranks) {
   StateFrame frame;
-  frame.window_length = parameters.coupling.window;
+  frame.window_length = parameters.coupling.window;  // 0: each has its own
   frame.fluid_ranks = fluid_ranks;
   if (!parameters.bulk_grid) return frame;
   frame.bulk_lower = parameters.bulk_grid->lower;

@@ -14,6 +14,8 @@ std::string numbers_table(const ResolvedNumbers& n) {
     table += fmt::format("{:<12}  {}\n", label, value);
   };
   if (n.windows > 0) row("windows", fmt::format("{} of {:.4g} s", n.windows, n.window));
+  if (n.longest_window > 0)
+    row("windows", fmt::format("of {:.4g} to {:.4g} s, as their error allows", n.window, n.longest_window));
   const auto limits = [&row](const std::vector<std::pair<const char*, double>>& times, double step) {
     std::string line;
     for (const auto& [name, time] : times)
@@ -30,7 +32,8 @@ std::string numbers_table(const ResolvedNumbers& n) {
            n.fluid_time_step);
   }
   if (n.dem_steps > 0) {
-    row("DEM steps", fmt::format("{} of {:.4g} s in each window (n)", n.dem_steps, n.dem_time_step));
+    row("DEM steps", fmt::format("{} of {:.4g} s in {} window (n)", n.dem_steps, n.dem_time_step,
+                                 n.longest_window > 0 ? "the first" : "each"));
     limits({{"a collision", n.collision_time},
             {"a Rayleigh wave", n.rayleigh_time},
             {"drag m/beta", n.drag_time}},

@@ -7,10 +7,11 @@ namespace demvof {
 
 /// What the two programs made of a case before the first step; `demvof check` shows it.
 struct ResolvedNumbers {
-  double window = 0;  // s
-  long windows = 0;
+  double window = 0;           // s; the first one's
+  double longest_window = 0;   // s; 0: all are the same
+  long windows = 0;            // 0: not known
   double dem_time_step = 0;    // s; 0 without particles
-  long dem_steps = 0;          // per window (n)
+  long dem_steps = 0;          // in the first window (n)
   double fluid_time_step = 0;  // the first, s
   long fluid_steps = 0;        // in the first window (k); later ones follow from the Courant number
   // What the steps follow from, s; 0: there is no such limit, or it is not known.

@@ -171,6 +171,27 @@ TEST(CaseFiles, AreOverriddenKeyByKeyAndTheLastOneCounts) {
   EXPECT_EQ(c.bulk_grid->cells, (std::array<int, 3>{1, 2, 3}));
 }
 
+TEST(CaseFiles, GiveWindowsANumberOrAMapAndTheLastOneCounts) {
+  const CaseFile file(plain);
+  const std::string map = "coupling.window={tolerance: 1e-3, shortest: 1e-4, longest: 2e-3}";
+  const CouplingParameters own = read_case(file.path(), {map, "coupling.window.longest=4e-3"}).coupling;
+  ASSERT_TRUE(own.adaptive_window);
+  EXPECT_EQ(own.window, 0);
+  EXPECT_EQ(own.adaptive_window->tolerance, 1e-3);
+  EXPECT_EQ(own.adaptive_window->shortest, 1e-4);
+  EXPECT_EQ(own.longest_window(), 4e-3);
+  const CouplingParameters fixed = read_case(file.path(), {map, "coupling.window=1e-4"}).coupling;
+  EXPECT_FALSE(fixed.adaptive_window);
+  EXPECT_EQ(fixed.longest_window(), 1e-4);
+  EXPECT_THROW(read_case(file.path(), {"coupling.window.longest=4e-3"}), InputError)
+      << "the others are missing";
+
+  const CaseParameters c = read_case(file.path(), {map});
+  const std::string resolved = resolved_configuration(c);
+  std::ofstream(file.path()) << resolved;
+  EXPECT_EQ(resolved_configuration(read_case(file.path())), resolved);
+}
+
 TEST(CaseFiles, AnOverrideReplacesAMistake) {
   const CaseFile file(plain + "output: {interval: never}\n");
   EXPECT_THROW(read_case(file.path()), InputError);

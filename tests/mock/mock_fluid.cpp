@@ -35,6 +35,8 @@ struct Options {
   double terminal_tolerance = 1e-3;
   std::string bulk_file;      // the last deposit, as text, one file per rank
   long killed_in_window = 0;  // by kill -9
+  std::vector<long> steps{
+      1};  // DEM steps of windows, where these have their own lengths; over and over again
 };
 
 Vec3 vec3(const json& array) {
@@ -92,7 +94,7 @@ int play(const Options& options, OwnWorld& world) {
   FluidEnd link(world, grid.cell_count(), parameters.coupling.time_out);
   const json facts = json::parse(link.handshake(
       handshake_items(version(), configuration_hash(parameters), {0, 0, -options.gravity}), "{}"));
-  link.send_plan(plan_windows(parameters, Scene{}, 0));
+  link.send_plan(plan_windows(parameters, Scene{}, facts.at("time_step")));
   if (options.check) {
     link.close();
     return exit_done;
@@ -107,9 +109,10 @@ int play(const Options& options, OwnWorld& world) {
 
   ParticleReport report = start.report;
   Vec3 momentum = vec3(facts.at("momentum"));
-  const double window = link.plan().window;
   while (link.next_window()) {
     const long n = link.number();
+    if (link.plan().own_lengths()) link.set_steps(options.steps.at((n - 1) % options.steps.size()));
+    const double window = link.window_length();
     FluidMessage fluid{{}, {still_water(particles.cells, options)}, {}, {}};
     Vec3 left_over;
     for (std::size_t i = 0; i < particles.cells.size(); ++i)
@@ -123,7 +126,12 @@ int play(const Options& options, OwnWorld& world) {
         fluid, [] {}, [&](ParticleMessage message) { particles = std::move(message.sums[0]); });
     report = link.close_window();
     if (link.writes()) link.both_have_written();
+    const double outputs = link.end_time() / parameters.output.interval;
+    if (link.plan().own_lengths() && !link.done())
+      expect(link.writes() == (std::abs(outputs - std::round(outputs)) < 1e-9),
+             fmt::format("window {}: output at {} s", n, link.end_time()));
 
+    expect_near(report.steps, window / static_cast<double>(facts.at("time_step")), 1e-9, "DEM steps", n);
     const double solid = report.solid_volume, mass = report.mass;
     const double scale = mass * options.gravity * window;  // of impulses
     expect_near(report.solid_volume_bulk, solid, 1e-12 * solid, "solid volume on the bulk grid", n);
@@ -138,6 +146,7 @@ int play(const Options& options, OwnWorld& world) {
     momentum = report.momentum;
     expect_near(change, booked, 1e-12 * (scale + norm(momentum)), "change of momentum", n);
   }
+  expect_near(link.end_time(), parameters.coupling.end_time, 0, "time at the end", link.number());
   if (options.terminal_velocity > 0)
     expect_near(report.momentum.z / report.mass, -options.terminal_velocity,
                 options.terminal_tolerance * options.terminal_velocity, "velocity at the end", link.number());
@@ -158,6 +167,7 @@ int main(int argc, char** argv) {
   app.add_option("--left-over", options.left_over);
   app.add_option("--terminal-velocity", options.terminal_velocity);
   app.add_option("--bulk-file", options.bulk_file);
+  app.add_option("--steps", options.steps);
   app.add_option("--killed-in-window", options.killed_in_window);
   CLI11_PARSE(app, argc, argv);
   OwnWorld world(argc, argv, Side::fluid);

@@ -128,13 +128,13 @@ class Bed {
   CellId begin_, end_;
 };
 
-std::string facts(const Options& options, double solid_volume, double window, const OwnWorld& world) {
+std::string facts(const Options& options, double solid_volume, double step, const OwnWorld& world) {
   return nlohmann::json{{"particle_count", 1},
                         {"min_diameter", 1e-3},
                         {"max_diameter", 1e-3},
                         {"solid_volume", solid_volume},
                         {"inserts_particles", false},
-                        {"time_step", window},
+                        {"time_step", step},
                         {"periodic", options.periodic},
                         {"collision_time", 0},
                         {"rayleigh_time", 0},
@@ -160,13 +160,15 @@ int play(const Options& options, OwnWorld& world) {
     state = read_restart_point(options.goes_on_in, {}, state_frame(parameters, parameters.fluid.ranks),
                                parameters.coupling.end_time)
                 .checksum;
+  const auto& adaptive = parameters.coupling.adaptive_window;
+  const double step = adaptive ? adaptive->shortest : parameters.coupling.window;
   link.handshake(handshake_items(version(), configuration_hash(parameters), {g[0], g[1], g[2]}, {}, state),
-                 facts(options, solid_volume, parameters.coupling.window, world));
+                 facts(options, solid_volume, step, world));
   const WindowPlan& plan = link.receive_plan();
 
   link.open_shares();
   link.walls();
-  rows = bed.at(static_cast<double>(plan.windows_before) * plan.window);
+  rows = bed.at(link.end_time());
   // The bed is wetted by the liquid alone: the stand-in is for one fluid, and for surfaces that it does not
   // touch.
   const auto in_liquid = [&plan](const CellValues<BulkParticles>& bed_rows) {
@@ -181,16 +183,16 @@ int play(const Options& options, OwnWorld& world) {
     CellValues<BulkParticles> next = bed.at(link.end_time());
     if (plan.schedule == Schedule::concurrent && link.number() == 1) {
       CellValues<BulkParticles> expected = rows;
-      bed.expect(fluid.means[0], plan.window, expected);
+      bed.expect(fluid.means[0], link.window_length(), expected);
       ParticleMessage message{in_liquid(expected), {}};
       if (plan.interface) message.droplets.emplace();
       link.send(message);
     }
-    bed.feel(fluid.means[0], plan.window, next);
+    bed.feel(fluid.means[0], link.window_length(), next);
     ParticleMessage done{in_liquid(next), {}};
     if (plan.interface) done.droplets.emplace();
     link.send(done);
-    link.close_window(bed.report(rows, fluid.means[0], next, plan.window));
+    link.close_window(bed.report(rows, fluid.means[0], next, link.window_length()));
     rows = std::move(next);
     if (link.writes()) link.both_have_written();
   }

@@ -18,6 +18,8 @@ PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
+OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
+               "^unit_output_due$": ["unit_output_due"]}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
@@ -71,6 +73,16 @@ FAULTS = [
     ("coupler/exchange/owed_pressure.cpp", "gradient -= part / (here->solid_volume * window);",
      "gradient += part / (here->solid_volume * window);", OWED),
     ("coupler/exchange/owed_pressure.cpp", "owed.impulse -= back;", "", OWED),
+    ("coupler/exchange/owed_pressure.cpp", "0.5 * pace * relaxation[i]", "0.5 * relaxation[i]", OWED),
+    ("coupler/exchange/seen_fluid.cpp", "ratio_ == 1 ? simulated : over_window(simulated, ratio_)", "simulated", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "const double response = response_times(theta) * theta;",
+     "const double response = response_times(theta);", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "particles.following_response *= kept * follow;",
+     "particles.following_response *= kept;", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "std::max(least, aim / error)", "std::max(least, 1 / error)", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "(distance + parts - 1) / parts", "std::min(distance, wanted)", OWN_WINDOWS),
+    ("coupler/link/output_due.hpp", "(outputs_until(static_cast<double>(after) * step, interval) + 1) * interval",
+     "(static_cast<double>(after) * step / interval + 1) * interval", OWN_WINDOWS),
     # ---- transfer
     ("coupler/transfer/axis_kernel.cpp", "add(first, 1.0 - upper_share);", "add(first, upper_share);", AVERAGING),
     ("coupler/transfer/axis_kernel.cpp", "m < count_ ? m : period - 1 - m", "m < count_ ? m : period - m", AVERAGING),

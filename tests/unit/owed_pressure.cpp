@@ -46,6 +46,22 @@ TEST(OwedPressure, IsToldWithTheNextGradientsUntilAllIsGiven) {
   EXPECT_NEAR(given, left, 1e-12);
 }
 
+// Of what has come of a long window as much force in the short one after it as in another long one.
+TEST(OwedPressure, GoesBackAtThePaceOfTheLongerWindow) {
+  for (const double ratio : {1.0, 0.125}) {
+    OwedPressure owed;
+    CellValues<BulkFluid> seen = fluid(0);
+    owed.tell(seen, {1, 1}, particles(2), window);
+    owed.collect({{3}, {{{0, 0, 8}, 2 * window, 2}}}, window);
+    owed.end_window(particles(2));
+    seen = fluid(0);
+    owed.tell(seen, {1, 1}, particles(2), ratio * window, ratio);
+    EXPECT_NEAR(seen.values[0].pressure_gradient.z, -0.5 * 8 / (2 * window), 1e-14);
+    owed.end_window(particles(2));
+    EXPECT_NEAR(owed.owed_in_all().z, 8 - ratio * 4, 1e-14);
+  }
+}
+
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   OwedPressure owed;
   CellValues<BulkFluid> seen = fluid(0);

@@ -146,6 +146,15 @@ class Reports(unittest.TestCase):
         self.assertNotIn("t = 0.1 s", page)  # not among output.pictures
         self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained
 
+    def test_windows_of_their_own_lengths_are_shown_over_time(self):
+        folder = write_run(self.place / "a", window={"shortest": 1e-4, "longest": 2e-3, "largest_error": 1.5, "over": 3})
+        (folder / "history.csv").write_text("time,window\n# s,s\n0,0\n0.1,2e-3\n0.2,1e-4\n")
+        code, printed, page = report(folder)
+        self.assertEqual(code, 0, printed)
+        self.assertIn('alt="Length of the windows"', page)
+        self.assertIn("0.0001 s to 0.002 s, 3 above the tolerance", page)
+        self.assertNotIn("Not shown", page)
+
     def test_the_plane_shows_liquid_surface_and_particles_where_they_are(self):
         section = fields.read(write_run(self.place / "a"), 0.2)
         self.assertEqual(section.normal, "y")

@@ -113,6 +113,19 @@ TEST(Results, NumbersThatAreNotFiniteStayReadable) {
   EXPECT_TRUE(parsed(results)["conservation"]["momentum"].is_null());
 }
 
+TEST(Results, HaveTheLengthsOfTheWindowsWhereTheyDiffer) {
+  RunResults results;
+  EXPECT_FALSE(parsed(results).contains("window"));
+  results.window.emplace();
+  for (const auto& [length, error] : {std::pair{2e-3, 0.5}, {5e-4, 1.5}, {1e-3, 1.0}})
+    results.window->enter(length, error);
+  const Json window = parsed(results)["window"];
+  EXPECT_EQ(window["shortest"], 5e-4);
+  EXPECT_EQ(window["longest"], 2e-3);
+  EXPECT_EQ(window["largest_error"], 1.5);
+  EXPECT_EQ(window["over"], 1);
+}
+
 TEST(Results, HaveTheMomentumOfEverythingWithParticles) {
   RunResults results;
   EXPECT_FALSE(parsed(results).contains("momentum"));

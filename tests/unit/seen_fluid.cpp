@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coupler/exchange/relaxation.hpp"
+#include "coupler/exchange/window_rule.hpp"
 
 namespace demvof {
 namespace {
@@ -72,6 +73,23 @@ TEST(SeenFluid, GoesTowardsTheFluidFromWhatWasToldBefore) {
     EXPECT_EQ(run.seen.relaxed().cells, 1);
     expect_near(run.seen.cells().values[0].velocity, seen.velocity);
     expect_near(run.seen.cells().values[0].acceleration, run.fast.values[0].acceleration);
+  }
+}
+
+// The particles are those of the window before, the relaxation that of the coming one.
+TEST(SeenFluid, RelaxesAsForTheWindowToCome) {
+  for (const double ratio : {0.125, 1.5}) {
+    SeenFluid seen(parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true));
+    const CellValues<BulkParticles> heard{{7}, {particles()}};
+    CellValues<BulkFluid> first{{7}, {fluid(1, 100)}}, second{{7}, {fluid(3, 500)}};
+    seen.relax(first, {0.5 * cell_volume}, heard);
+    seen.set_window(ratio * window);
+    seen.relax(second, {0.5 * cell_volume}, heard);
+    const BulkParticles then = over_window(particles(), ratio);
+    const double gain = making_way_gain(then, 1000, 0.5 * cell_volume);
+    const double omega = relaxation_factor(Schedule::staggered, gain, 0);
+    EXPECT_NE(gain, making_way_gain(particles(), 1000, 0.5 * cell_volume));
+    EXPECT_NEAR(second.values[0].velocity.x, 1 + omega * 2, 1e-12);
   }
 }
 

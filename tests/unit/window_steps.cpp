@@ -9,6 +9,7 @@
 
 namespace {
 
+using demvof::require_whole_steps;
 using demvof::steps_per_window;
 
 TEST(WindowSteps, CountsWholeStepsThroughTheRoundOffOfDecimals) {
@@ -35,6 +36,17 @@ TEST(WindowSteps, NamesBothValuesAndTheNearestWindows) {
   const std::string below = complaint(4e-6, 1e-5);
   for (const char* part : {"4e-06", "that fit: 1e-05 s"})
     EXPECT_NE(below.find(part), std::string::npos) << part << " is not in: " << below;
+}
+
+TEST(WindowSteps, OrARunThatEndsBetweenTwo) {
+  EXPECT_NO_THROW(require_whole_steps(0.3, 1e-4));
+  try {
+    require_whole_steps(0.30005, 1e-4);
+    FAIL();
+  } catch (const demvof::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("coupling.end_time: 0.30005 s"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("0.3 or 0.3001"), std::string::npos);
+  }
 }
 
 TEST(WindowSteps, RefusesAWindowThatIsNearlyRight) {

@@ -40,6 +40,7 @@ GROUPS = [
     ("Liquid held in interface cells", ["liquid_in_interface_cells"], LINEAR),
     ("Solid volume on the mesh, relative change", ["solid_volume_mesh"], CHANGE),
     ("Particles", ["particles"], LINEAR),
+    ("Length of the windows", ["window"], LOGARITHMIC),
 ]
 
 

@@ -51,6 +51,9 @@ def summary(run):
         ("peak memory", f"{size(number('peak_memory_bytes.fluid'))} fluid, "
                         f"{size(number('peak_memory_bytes.particles'))} particles"),
     ]
+    if number("window.longest"):
+        rows.append(("windows", f"{amount(number('window.shortest'), 's')} to {amount(number('window.longest'), 's')}, "
+                                f"{amount(number('window.over'))} above the tolerance"))
     if number("relaxation.cells"):
         rows.append(("told a relaxed fluid", f"{amount(number('relaxation.cells'))} bulk cells times windows, factor down "
                                              f"to {amount(number('relaxation.smallest'))}"))

@@ -62,16 +62,18 @@ class Continued(unittest.TestCase):
         times = [sorted(f.name for f in (out / "fluid").iterdir() if f.name[0].isdigit()) for out in (whole, parts)]
         self.assertEqual(*times)
 
-    def check_same(self, *options, bound=BOUND):
+    def check_same(self, *options, bound=BOUND, windows=15):
         whole = self.run_to("whole", 0.03, *options)
         parts = self.run_to("parts", 0.015, *options)
         self.run_to("parts", 0.03, "--continue", *options)
         results = json.loads((parts / "results.json").read_text())
         self.assertEqual(results["continued_from"], 0.015)
-        self.assertEqual(results["steps"]["windows"], 15)
+        if windows:
+            self.assertEqual(results["steps"]["windows"], windows)
         for quantity, error in results["conservation"].items():
             self.assertLess(error, 1e-11, quantity)
-        self.assertEqual(json.loads((parts / "earlier" / "results_1.json").read_text())["steps"]["windows"], 15)
+        earlier = json.loads((parts / "earlier" / "results_1.json").read_text())["steps"]["windows"]
+        self.assertEqual(earlier, windows or len(Run(whole).times) - 1 - results["steps"]["windows"])
         self.compare(whole, parts, bound)
 
     def test_refining_mesh(self):
@@ -85,6 +87,14 @@ class Continued(unittest.TestCase):
     def test_concurrent(self):
         self.case()
         self.check_same("--set", "coupling.schedule=concurrent")
+
+    def test_windows_of_their_own_lengths(self):
+        self.case(first_step=1e-4)
+        self.check_same("--set", "coupling.window={tolerance: 5e-3, shortest: 1e-4, longest: 4e-3}", bound=1e-300, windows=None)
+        windows = Run(FOLDER / self._testMethodName / "parts").history["window"][1:]
+        self.assertGreater(max(windows), 4 * min(windows))
+        self.check_refused(FOLDER / self._testMethodName / "parts", "coupling.window was a map: windows of their own lengths",
+                           "--set", "coupling.end_time=0.04")
 
     def test_volume_adding(self):
         self.case()
