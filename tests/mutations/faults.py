@@ -79,8 +79,8 @@ FAULTS = [
      "const double response = response_times(theta);", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "particles.following_response *= kept * follow;",
      "particles.following_response *= kept;", OWN_WINDOWS),
-    ("coupler/exchange/window_rule.hpp", "std::max(least, aim / error)", "std::max(least, 1 / error)", OWN_WINDOWS),
-    ("coupler/exchange/window_rule.hpp", "(distance + parts - 1) / parts", "std::min(distance, wanted)", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "if (error > 1)", "if (error > 10)", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "(distance + parts - 1) / parts", "distance / parts", OWN_WINDOWS),
     ("coupler/link/output_due.hpp", "(outputs_until(static_cast<double>(after) * step, interval) + 1) * interval",
      "(static_cast<double>(after) * step / interval + 1) * interval", OWN_WINDOWS),
     # ---- transfer
