@@ -73,7 +73,7 @@ FAULTS = [
     ("coupler/exchange/owed_pressure.cpp", "gradient -= part / (here->solid_volume * window);",
      "gradient += part / (here->solid_volume * window);", OWED),
     ("coupler/exchange/owed_pressure.cpp", "owed.impulse -= back;", "", OWED),
-    ("coupler/exchange/owed_pressure.cpp", "0.5 * pace * relaxation[i]", "0.5 * relaxation[i]", OWED),
+    ("coupler/exchange/owed_pressure.cpp", "0.5 * pace * relaxation[i]", "0.5 / pace * relaxation[i]", OWED),
     ("coupler/exchange/seen_fluid.cpp", "ratio_ == 1 ? simulated : over_window(simulated, ratio_)", "simulated", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "const double response = response_times(theta) * theta;",
      "const double response = response_times(theta);", OWN_WINDOWS),
