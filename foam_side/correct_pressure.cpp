@@ -67,9 +67,9 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
     at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
     if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
   }
-  if (flow.mesh.moving()) through -= flow.mesh.phi();
+  fvc::makeRelative(through, flow.U);
   Foam::adjustPhi(through, flow.U, flow.p_rgh);
-  if (flow.mesh.moving()) through += flow.mesh.phi();
+  fvc::makeAbsolute(through, flow.U);
   forAll(flow.mesh.boundary(), patch) if (!given(patch))
           flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
+#include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/fluid_books.hpp"
 
 namespace demvof {
-namespace {
 
 void update_total_pressure(Flow& flow) {
   flow.p == flow.p_rgh + flow.rho* flow.gh;
@@ -16,6 +16,8 @@ void update_total_pressure(Flow& flow) {
                               flow.p_reference - Foam::getRefCellValue(flow.p, flow.p_reference_cell));
   flow.p_rgh = flow.p - flow.rho * flow.gh;
 }
+
+namespace {
 
 /// The last correction gave u = (H + ...)/A with C in A and C u_ref in H: what the fluid received is
 /// C (u_ref - u) with this very u.

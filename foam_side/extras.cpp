@@ -11,6 +11,7 @@ namespace demvof {
 namespace {
 
 constexpr const char* registered = "demvofExtras";
+constexpr const char* flux_for_others = "alphaPhiUn";  // as interFoam calls it
 
 MeshMotion motion_of(const Flow& flow) {
   if (!flow.mesh.dynamic() || Foam::isA<Foam::dynamicRefineFvMesh>(flow.mesh)) return MeshMotion::never;
@@ -116,6 +117,13 @@ Extras::Extras(const Flow& flow)
 
 void make_extras(Flow& flow) {
   Foam::regIOobject::store(new Extras(flow));
+  Foam::regIOobject::store(
+      new surfaceScalarField(Foam::IOobject(flux_for_others, flow.time.timeName(), flow.mesh),
+                             flow.phi * fvc::interpolate(flow.alpha)));
+}
+
+void show_liquid_flux(const Flow& flow, const surfaceScalarField& flux) {
+  *flow.mesh.getObjectPtr<surfaceScalarField>(flux_for_others) = flux;
 }
 
 Extras& extras(const Flow& flow) {

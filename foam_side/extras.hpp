@@ -30,6 +30,9 @@ struct Extras : Foam::regIOobject {
 void make_extras(Flow& flow);
 Extras& extras(const Flow& flow);
 
+/// The flux of liquid, m3/s, to function objects that carry something with the liquid (scalarTransport).
+void show_liquid_flux(const Flow& flow, const surfaceScalarField& flux);
+
 /// What fvSolution says about alpha. advectionScheme, where it is not said, is that of the solver that the
 /// case was written for (controlDict: application).
 struct AdvectionControls {
@@ -49,6 +52,10 @@ void refuse_what_is_not_done(const Flow& flow);
 
 /// In the first corrector of a step, or in each: points move, and the flux becomes that of the moved mesh.
 void move_mesh(Flow& flow);
+
+/// p, and in a closed box the level of p_rgh, from p_rgh: at the end of a step, and before bodies that float
+/// are moved by the pressure of the last corrector.
+void update_total_pressure(Flow& flow);
 
 /// phi from its value in space to that relative to the faces, which then carries alpha.
 void make_relative(Flow& flow);

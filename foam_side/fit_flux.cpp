@@ -49,7 +49,11 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
   volScalarField potential(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
                            dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
   flow.mesh.setFluxRequired(potential.name());
-  if (potential.needReference()) Foam::adjustPhi(flux, flow.U, potential);
+  if (potential.needReference()) {  // what the walls displace where they move is not to be made up for
+    fvc::makeRelative(flux, flow.U);
+    Foam::adjustPhi(flux, flow.U, potential);
+    fvc::makeAbsolute(flux, flow.U);
+  }
 
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));

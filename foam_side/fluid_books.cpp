@@ -18,7 +18,7 @@
 
 #include <utility>
 
-#include "foam_side/flow.hpp"
+#include "foam_side/extras.hpp"
 #include "foam_side/vectors.hpp"
 #include "processorCyclicFvPatch.H"
 
@@ -103,6 +103,7 @@ void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
 }  // namespace
 
 void note_liquid_flux(Flow& flow, const surfaceScalarField& flux) {
+  show_liquid_flux(flow, flux);
   double inflow = 0;
   for_each_boundary_face(flow.mesh,
                          [&](label patch, label face) { inflow -= flux.boundaryField()[patch][face]; });

@@ -4,8 +4,9 @@
 //
 //   phi = (u - u_f).S,   u_f.S dt = volume that the face sweeps in a step
 //
-// The swept volumes add up to the change of V, so that alpha = 1 stays 1. On the moved mesh the flux is the
-// face velocity's, made continuous by a potential as in interFoam, if PIMPLE's correctPhi says so.
+// The swept volumes add up to the change of V, so that alpha = 1 stays 1. With Crank-Nicolson u_f is that at
+// the end of the step (fvc::meshPhi), as u is. On the moved mesh the flux is the face velocity's, made
+// continuous by a potential as in interFoam, if PIMPLE's correctPhi says so.
 
 #include "foam_side/extras.hpp"
 
@@ -49,6 +50,7 @@ tmp<surfaceScalarField> last_answer(const Flow& flow) {
 
 void move_mesh(Flow& flow) {
   if (!is_due(flow)) return;
+  if (!flow.pimple.firstIter()) update_total_pressure(flow);
   flow.mesh.update();
   if (!flow.mesh.changing()) return;
   renew_geometry(flow);
@@ -61,7 +63,7 @@ void move_mesh(Flow& flow) {
 }
 
 void make_relative(Flow& flow) {
-  if (flow.mesh.moving()) flow.phi -= flow.mesh.phi();
+  fvc::makeRelative(flow.phi, flow.U);
 }
 
 }  // namespace demvof

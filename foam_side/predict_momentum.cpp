@@ -80,11 +80,15 @@ void constrain(Flow& flow, Foam::fvVectorMatrix& momentum) {
   extras(flow).sources.constrain(answering);
 }
 
-/// The predictor: all forces, those of the particles implicit in U.
+/// The predictor: all forces, those of the particles implicit in U. Not by fvc::reconstruct, whose result
+/// shares the memory of its operand behind restrict pointers: compilers then form z from a y that is already
+/// the result's.
 void solve_momentum(Flow& flow, const Foam::fvVectorMatrix& momentum) {
-  tmp<volVectorField> force =
-      fvc::reconstruct(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
-  if (flow.porosity) force.ref() *= flow.porosity->eps;
+  const surfaceScalarField at_faces(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
+  volVectorField::Internal force(Foam::IOobject("force", flow.time.timeName(), flow.mesh), flow.mesh,
+                                 Foam::dimForce / Foam::dimVolume,
+                                 (*flow.reconstruct)([&](const auto& at, label) { return at(at_faces); }));
+  if (flow.porosity) force.field() *= flow.porosity->eps.primitiveField();
   Foam::fvVectorMatrix equation(momentum == force);
   if (flow.source) {
     const ParticleSource& source = *flow.source;
@@ -124,7 +128,7 @@ tmp<surfaceScalarField> flux_memory(const Flow& flow, const volScalarField& resp
 tmp<surfaceScalarField> relaxation_memory(const Flow& flow, const volScalarField& unrelaxed,
                                           const volScalarField& A) {
   tmp<surfaceScalarField> flux = flow.porosity ? velocity_flux_of(flow, flow.phi) : 1.0 * flow.phi;
-  if (flow.mesh.moving()) flux.ref() += flow.mesh.phi();
+  fvc::makeAbsolute(flux.ref(), flow.U);
   return fvc::interpolate(1.0 - unrelaxed / A) * (flux - fvc::flux(flow.U));
 }
 

@@ -80,6 +80,7 @@ def prepare(name, source, folder):
     case = target / "damBreakFine" if name.endswith("/damBreakFine") else target
     if not list((case / "constant" / "polyMesh").glob("faces*")):
         raise Failed("its Allrun makes no mesh")
+    shutil.rmtree(case / "0.orig", ignore_errors=True)  # of no use any more; `demvof prepare` would begin with it
     return case
 
 
@@ -88,14 +89,14 @@ def entry(dictionary, key, otherwise=None):
     return found[1].strip() if found else otherwise
 
 
-def twenty_steps(case):
-    """Equal steps of the tutorial's deltaT, fields written once with all digits."""
+def twenty_steps(case, step=None):
+    """Equal steps, of the tutorial's deltaT where no other is given, fields written once with all digits."""
     file = case / "system" / "controlDict"
     text = file.read_text()
-    step, begin = float(entry(text, "deltaT")), 0.0
+    step, begin = step or float(entry(text, "deltaT")), 0.0
     lines = {"startFrom": "startTime", "startTime": begin, "stopAt": "endTime", "endTime": begin + STEPS * step, "deltaT": step,
              "adjustTimeStep": "no", "writeControl": "timeStep", "writeInterval": STEPS, "purgeWrite": 0,
-             "writeFormat": "ascii", "writePrecision": 16, "timePrecision": 9, "writeCompression": "off"}
+             "writeFormat": "ascii", "writePrecision": 16, "timePrecision": 12, "writeCompression": "off"}
     for key in lines:
         text = re.sub(rf"^\s*{key}\s[^;]*;", "", text, flags=re.M)
     file.write_text(text + "".join(f"{key} {value};\n" for key, value in lines.items()))
