@@ -42,7 +42,7 @@ DEM steps. "Exchange" is the worst error of impulse given against received in a 
 
 def cell(text):
     """In one line, without the folders of the machine."""
-    return re.sub(r"/\S*/(particles|fluid)/", r"\1/", " ".join(str(text).split())).replace("|", "/")
+    return re.sub(r"(?<![\w.])/(?:[\w.+-]+/)+", "", " ".join(str(text).split())).replace("|", "/")
 
 
 def number(value):
