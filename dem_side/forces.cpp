@@ -296,7 +296,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
         if (history && k == 0) {
           const HistoryForce::Memory past =
               history->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
-          part.across += share * past.force;
+          part.across += past.force;
           part.added += share * past.inertia;
         }
         steady += share * gradients.stress_force;
@@ -327,7 +327,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
       if constexpr (with_gradients) {
         CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
-        if (history && k == 0) history->remember(i, gradients.acceleration - acceleration);
+        if (history && k == 0)
+          history->remember(i, row.share(0), part.slip, gradients.acceleration - acceleration);
         const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
         gradients.other_impulse += step * other;
         of_fluid += other;

@@ -10,8 +10,13 @@
 
 namespace demvof {
 
-/// History force on the particles, in every DEM step. What a particle remembers of its past goes with it,
-/// from rank to rank and from run to run.
+/// History force on the particles, in every DEM step, of their wetted share a:
+///
+///   F = B int d(a (u - v))/ds (t - s)^-1/2 ds
+///
+/// What becomes wet meets its whole slip at once; out of the liquid all is forgotten. A particle that begins
+/// in the fluid begins with the slip of long ago. What it remembers goes with it, from rank to rank and from
+/// run to run.
 class HistoryForce {
  public:
   /// Gives the particles their memory, empty.
@@ -20,15 +25,16 @@ class HistoryForce {
   void begin_window() { count_ = {}; }
   void begin_step();
 
-  /// What the past asks of local particle i in the present step: force + inertia (du/dt - dv/dt), N.
+  /// What the past asks of local particle i in the present step: force + a inertia (du/dt - dv/dt), N.
   struct Memory {
     Vec3 force;          // N
     double inertia = 0;  // kg
   };
   Memory recall(int i, double diameter, double density, double viscosity, double slip);
 
-  /// After the step's accelerations have been found. relative: du/dt - dv/dt, m/s2.
-  void remember(int i, const Vec3& relative);
+  /// After the step's accelerations have been found. share: a, -; slip: u - v, m/s; relative: du/dt - dv/dt,
+  /// m/s2.
+  void remember(int i, double share, const Vec3& slip, const Vec3& relative);
   /// Out of the fluid.
   void forget(int i);
 
@@ -37,8 +43,8 @@ class HistoryForce {
  private:
   Dem& dem_;
   std::optional<HistoryKernel> kernel_;
-  double step_ = 0;                     // s, of kernel_
-  double* const* integrals_ = nullptr;  // of the local particles in this step: I_k, m/s
+  double step_ = 0;                // s, of kernel_
+  double* const* rows_ = nullptr;  // of the local particles in this step
   ClosureCount count_;
 };
 

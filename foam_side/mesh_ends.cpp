@@ -101,8 +101,10 @@ void require_same_kind(int axis, bool periodic, const Ends& ends) {
 }
 
 bool has_wall_with_velocity(const Flow& flow) {
+  volVectorField U("velocityAtStart", flow.U);
+  U.correctBoundaryConditions();  // the velocity that a condition gives, whatever 'value' says
   bool moves = false;
-  for (const Foam::fvPatchVectorField& patch : flow.U.boundaryField())
+  for (const Foam::fvPatchVectorField& patch : U.boundaryField())
     if (Foam::isA<Foam::wallPolyPatch>(patch.patch().patch()) && patch.fixesValue())
       for (const vector& velocity : patch) moves = moves || Foam::mag(velocity) > 0;
   return Foam::returnReduce(moves, Foam::orOp<bool>());

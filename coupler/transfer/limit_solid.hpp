@@ -25,9 +25,10 @@ struct LimitedSolid {
 /// maximum_solid_fraction of the volume that is open to the fluid in them.
 ///
 /// The excess of a cell goes in equal shares to those of its face neighbours that are below the limit, or to
-/// all of them when none is; this is repeated until no cell is above the limit. The sum over all cells is
-/// kept to round-off, and the result is the same to the last bit for any number of ranks. When all cells
-/// together have less room than there are particles nothing is moved.
+/// all of them when none is; this is repeated until no cell is above the limit, or can reach one with room.
+/// Cells without fluid (open share 0) receive nothing. The sum over all cells is kept to round-off, and the
+/// result is the same to the last bit for any number of ranks. When all cells together have less room than
+/// there are particles nothing is moved.
 ///
 /// open_share: the fluid's share in the volume of those cells that the fluid mesh does not fill, -; the
 /// others are all open. walls: faces that nothing goes through. owned, walls, open_share: cells owned by this

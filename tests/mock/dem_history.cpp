@@ -104,5 +104,50 @@ TEST(DemHistory, HandsTheReactionBack) {
   }
 }
 
+// A sphere moved down at a steady speed into a liquid at rest: what becomes wet meets its whole slip,
+//   F = B w int a'(s) (t - s)^-1/2 ds,
+// while in the air there is nothing to remember. Without that the slip would count as old: no force at all.
+TEST(DemHistory, MeetsItsSlipOnEntry) {
+  const double step = 1e-5, speed = 0.1, radius = bead_diameter / 2, rho = 1000, mu = 0.1;
+  const int entering = static_cast<int>(std::lround(1.2 * bead_diameter / speed / step)),
+            after = entering / 2;
+  Scene scene("history_entry", empty_box(step) + bead({0.05, 0.05, 0.2}) + bead_properties() +
+                                   "fix push all move linear 0 0 " + std::to_string(-speed) + " units box\n" +
+                                   "group nobody subtract all all\nfix integrate nobody nve/sphere\n");
+  ForceParameters parameters = with_history();
+  parameters.added_mass = 0;
+  parameters.drag = demvof::DragLaw::none;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  FluidAtParticle liquid, gas;
+  liquid.density = rho, liquid.viscosity = mu;
+  gas.density = 1, gas.viscosity = 1e-5;
+  const auto advance = [&](const demvof::SeenSurface& surface, int steps) {
+    const int count = scene.dem->particles().count;
+    forces.begin_window(
+        {{std::vector<FluidAtParticle>(count, liquid), std::vector<FluidAtParticle>(count, gas)},
+         std::vector<demvof::SeenSurface>(count, surface)},
+        steps * step);
+    scene.dem->run(steps);
+    double impulse = forces.impulses().drag.z;
+    MPI_Allreduce(MPI_IN_PLACE, &impulse, 1, MPI_DOUBLE, MPI_SUM, scene.dem->world());
+    return impulse;
+  };
+  const double start = 1.05 * radius;  // of the centre above the surface
+  advance({0, {0, 0, 1}, -start}, entering);
+  const double impulse = advance({1, {}, 0}, after);
+
+  const double factor = demvof::history_factor(bead_diameter, rho, mu) * speed;
+  const double begin = entering * step, end = (entering + after) * step;
+  double exact = 0;
+  for (int n = 0; n < entering; ++n) {
+    const auto share = [&](double t) { return demvof::share_below_plane((speed * t - start) / radius); };
+    const double s = (n + 0.5) * step;
+    exact +=
+        factor * (share((n + 1) * step) - share(n * step)) * 2 * (std::sqrt(end - s) - std::sqrt(begin - s));
+  }
+  EXPECT_NEAR(impulse / exact, 1, 0.01);
+}
+
 }  // namespace
 }  // namespace demvof_test

@@ -181,6 +181,22 @@ TEST(LimitSolid, RandomOverfullCellsConserveAndDoNotDependOnTheRanks) {
     }
 }
 
+/// Two cells of a film, overfull, with closed ones around them, and a full cell elsewhere that has room
+/// beside it.
+TEST(LimitSolid, NothingGoesWhereThereIsNoFluidOrRoundForEver) {
+  const BulkGrid grid({0, 0, 0}, {8, 1, 1}, {8, 1, 1});
+  const Volumes before{{1, 0.3}, {2, 0.2}, {6, 0.75}};
+  const Volumes open{{0, 0.0}, {1, 0.25}, {2, 0.25}, {3, 0.0}, {4, 0.0}};
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, before, open);
+  EXPECT_EQ(outcome.volumes.at(1), 0.3);
+  EXPECT_EQ(outcome.volumes.at(2), 0.2);
+  EXPECT_EQ(outcome.volumes.count(0) + outcome.volumes.count(3), 0u);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(6), 0.5);
+  EXPECT_DOUBLE_EQ(outcome.volumes.at(5), 0.125);
+  EXPECT_DOUBLE_EQ(outcome.relief.volume, 0.25);
+  EXPECT_DOUBLE_EQ(outcome.relief.not_placed, 0.25);
+}
+
 TEST(LimitSolid, SaysWhatTheGridHasNoRoomFor) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, {{0, 1.0}, {1, 0.25}});

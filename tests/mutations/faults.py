@@ -17,6 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
+HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
                "^unit_output_due$": ["unit_output_due"]}
@@ -104,6 +105,9 @@ FAULTS = [
      "mean.velocity / mean.fluid", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - around->cells().front()] *= open_share.values[i]",
      "limit[open_share.cells[i] - around->cells().front()] *= 1", AVERAGING),
+    ("coupler/transfer/limit_solid.cpp", "|| limit[c] == 0) continue;", ") continue;", AVERAGING),
+    ("coupler/transfer/limit_solid.cpp", "slot >= 0 && beside_place[slot].open > 0", "slot >= 0", AVERAGING),
+    ("dem_side/history_force.cpp", "(share - before) / step_ * slip", "0 * slip", HISTORY),
     ("coupler/transfer/relocation.hpp", "add(value, gift.share, beside[around_->beside()[gift.cell][face]]);",
      "add(value, 0 * gift.share, beside[around_->beside()[gift.cell][face]]);", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.hpp", "if (!relocation_.empty()) owned = relocation_.gather(owned);",

@@ -34,8 +34,8 @@ TEST(Verdict, BooksThatDoNotCloseAreAFailure) {
     ASSERT_TRUE(judge(results, 0.5).failure);
     EXPECT_NE(judge(results, 0.5).failure->find("conservation.momentum"), std::string::npos);
   }
-  RunResults open_exchange;  // as of two clocks that run apart
-  open_exchange.conservation.exchange = 4e-4;
+  RunResults open_exchange;
+  open_exchange.conservation.exchange = 0.02;
   EXPECT_TRUE(judge(open_exchange, 0.5).failure);
   EXPECT_FALSE(judge(open_exchange, 0.5, false).failure) << "a scheme that does not close";
   RunResults results;

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from box_case import BoxCase, Cyclic, Particle
+from box_case import BoxCase, Cyclic, Particle, Wall
 
 DEMVOF, FOLDER, NAMES = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
 
@@ -62,6 +62,13 @@ def with_slope():
     return case.write()
 
 
+def with_drum():
+    """The velocity of a wall is what its condition gives, not the 'value' beside it."""
+    case = box("drum", script_tail=PISTON, extra_files={"particles/p.stl": STL})
+    case.sides["x-"] = {**Wall(), "U": "rotatingWallVelocity; origin (0 0 0); axis (1 0 0); omega 1; value uniform (0 0 0)"}
+    return case.write()
+
+
 def with_library():
     return replaced(box("library").write(), "fluid/system/controlDict", "startTime 0", 'libs ("libfieldFunctionObjects.so"); startTime 0')
 
@@ -76,6 +83,7 @@ TRIALS = {
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
                                      ["fix belt (wall/gran", "no wall of the fluid moves"]),
+    "wall_that_moves_on_both": (with_drum, 0, []),
     "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
                         ["dynamicMeshDict", "with particles"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
