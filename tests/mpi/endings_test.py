@@ -16,7 +16,8 @@ import unittest
 ACTOR = sys.argv.pop(1)
 MPIRUN = sys.argv.pop(1)
 DEMVOF_PAIR = sys.argv.pop(1)
-OPEN_MPI_4 = "(Open MPI) 4." in subprocess.run([MPIRUN, "--version"], capture_output=True, text=True).stdout
+# "mpirun (Open MPI) 4.1.4", and as mpiexec "mpiexec (OpenRTE) 4.1.4"
+OPEN_MPI_4 = ") 4." in subprocess.run([MPIRUN, "--version"], capture_output=True, text=True).stdout
 # The shell must outlive the signals that mpirun sends to it and its child.
 RANK = 'trap : TERM INT USR1; "$@"; code=$?; echo $code > code.$OMPI_COMM_WORLD_RANK; exit $code'
 
@@ -181,7 +182,8 @@ class Endings(unittest.TestCase):
         pair = Pair("disagree", "disagree", (2, 2))
         line = "coupling.window: foam_side has '1e-4', dem_side has '2e-4'"
         output = self.check(pair, [(2, None)] * 4, [line], mpirun_code=2)
-        self.assertEqual(output.count(line), 2, output)  # each side says it once
+        # Each side says it once; a rank whose fellow was killed by mpirun before it could pass it on, too.
+        self.assertIn(output.count(line), (2, 3), output)
 
     # Silence.
     def test_time_out(self):
