@@ -57,13 +57,15 @@ json as_json(const OwedPressure::State& state) {
   const Vec3& way = state.on_its_way;
   return {{"owed", as_json(state.owed)},
           {"elsewhere", as_json(state.elsewhere)},
+          {"steepest", as_json(state.steepest)},
           {"on_its_way", {way.x, way.y, way.z}},
           {"turnover", state.turnover}};
 }
 
 OwedPressure::State owed_pressure(const json& saved) {
   return {cell_values<LeftOver::Owed>(saved.at("owed")), cell_values<Vec3>(saved.at("elsewhere")),
-          vec3(saved.at("on_its_way")), saved.at("turnover").get<double>()};
+          cell_values<double>(saved.at("steepest")), vec3(saved.at("on_its_way")),
+          saved.at("turnover").get<double>()};
 }
 
 std::vector<double> components(const Foam::vectorField& values) {

@@ -9,6 +9,14 @@
 #include "coupler/exchange/momentum_exchange.hpp"
 
 namespace demvof {
+namespace {
+
+// Most by which a told gradient is changed, of the steepest that has been in the cell. A cell whose particles
+// lie in the other fluid but for a millionth owes them round-off over nothing: up to 1e9 Pa/m, which would be
+// handed to a particle that the surface has wetted since.
+constexpr double most_of_gradient = 10;
+
+}  // namespace
 
 void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>& relaxation,
                         const CellValues<BulkParticles>& particles, double window, double pace) {
@@ -25,7 +33,10 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
     seen_ += given;
     const auto owed = owed_.find(cell);
     if (owed == owed_.end()) continue;
-    const Vec3 part = 0.5 * pace * relaxation[i] * owed->second.impulse;
+    Vec3 part = 0.5 * pace * relaxation[i] * owed->second.impulse;
+    const double steepest = std::max(steepest_[cell], norm(gradient));
+    const double most = most_of_gradient * steepest * here->solid_volume * window;
+    if (norm(part) > most) part *= most / norm(part);
     gradient -= part / (here->solid_volume * window);
     owed->second.impulse -= part;
     seen_ += part;
@@ -40,6 +51,7 @@ void OwedPressure::collect(const CellValues<Left>& left, double step) {
     const double moved =
         solid_volume - (heard == heard_.end() ? 0 : heard->second.solid_volume);  // V_e - V_s
     Vec3 not_theirs;
+    if (exposed > 0) steepest_[cell] = std::max(steepest_[cell], norm(impulse) / exposed);
     if (exposed > 0)
       not_theirs = moved * step / exposed * impulse;
     else if (heard != heard_.end())
@@ -60,6 +72,8 @@ void OwedPressure::end_window(const CellValues<BulkParticles>& particles) {
     owed->second.solid_volume = here && here->solid_volume > 0 ? here->solid_volume : HUGE_VAL;
     owed = norm(owed->second.impulse) > 0 ? std::next(owed) : owed_.erase(owed);
   }
+  for (auto steepest = steepest_.begin(); steepest != steepest_.end();)
+    steepest = owed_.count(steepest->first) > 0 ? std::next(steepest) : steepest_.erase(steepest);
 }
 
 void OwedPressure::return_to_fluid(CellValues<BulkParticles>& particles) {
@@ -115,12 +129,13 @@ std::map<CellId, T> as_map(const CellValues<T>& of) {
 }  // namespace
 
 OwedPressure::State OwedPressure::state() const {
-  return {as_cells(owed_), as_cells(elsewhere_), on_its_way_, turnover_on_its_way_};
+  return {as_cells(owed_), as_cells(elsewhere_), as_cells(steepest_), on_its_way_, turnover_on_its_way_};
 }
 
 void OwedPressure::go_on_from(const State& state) {
   owed_ = as_map(state.owed);
   elsewhere_ = as_map(state.elsewhere);
+  steepest_ = as_map(state.steepest);
   on_its_way_ = state.on_its_way;
   turnover_on_its_way_ = state.turnover;
 }

@@ -66,9 +66,10 @@ class OwedPressure {
 
   struct State {
     CellValues<LeftOver::Owed> owed;
-    CellValues<Vec3> elsewhere;  // goes back to the fluid, N s
-    Vec3 on_its_way;             // went back to the fluid with the last rows, N s
-    double turnover = 0;         // of that, N s
+    CellValues<Vec3> elsewhere;   // goes back to the fluid, N s
+    CellValues<double> steepest;  // gradient where something is owed, Pa/m
+    Vec3 on_its_way;              // went back to the fluid with the last rows, N s
+    double turnover = 0;          // of that, N s
   };
   State state() const;
   void go_on_from(const State& state);
@@ -79,9 +80,10 @@ class OwedPressure {
     double solid_volume = 0;  // m3
     Vec3 gradient;            // without what was owed, Pa/m
   };
-  std::map<CellId, Seen> heard_;      // by whom, in this window
-  std::map<CellId, Vec3> open_;       // of this window: left less told so far, N s
-  std::map<CellId, Vec3> elsewhere_;  // left where they were not, N s
+  std::map<CellId, Seen> heard_;       // by whom, in this window
+  std::map<CellId, Vec3> open_;        // of this window: left less told so far, N s
+  std::map<CellId, Vec3> elsewhere_;   // left where they were not, N s
+  std::map<CellId, double> steepest_;  // gradient that the fluid has had where something is owed, Pa/m
   Vec3 seen_, returned_, on_its_way_;
   double turnover_ = 0, turnover_on_its_way_ = 0;
 };

@@ -62,6 +62,20 @@ TEST(OwedPressure, GoesBackAtThePaceOfTheLongerWindow) {
   }
 }
 
+// Owed by a cell that holds next to nothing: round-off over next to nothing is no gradient.
+TEST(OwedPressure, TellsNothingSteeperThanTheFluidHasBeen) {
+  OwedPressure owed;
+  CellValues<BulkFluid> seen = fluid(-4);
+  owed.tell(seen, {1, 1}, particles(1e-16), window);
+  owed.collect({{3}, {{{0, 0, 4e-16 * window}, 1e-16 * window, 1e-16}}}, window);
+  owed.collect({{3}, {{{0, 0, 1e-9}, 0, 1e-16}}}, window);
+  owed.end_window(particles(1e-16));
+  seen = fluid(-4);
+  owed.tell(seen, {1, 1}, particles(1e-16), window);
+  EXPECT_NEAR(seen.values[0].pressure_gradient.z, -4 - 40, 1e-9);
+  EXPECT_NEAR(owed.owed_in_all().z / 1e-9, 1, 1e-3) << "and keeps it";
+}
+
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
   OwedPressure owed;
   CellValues<BulkFluid> seen = fluid(0);

@@ -75,7 +75,7 @@ def main():
         record.note(f"{name}: run time", run.results["wall_seconds"]["total"], "s")
         record.curve("level", "t, s", "level from alpha, m", name, run.times, run.history["mean_level"], style="-")
     record.curve("level", "t, s", "level from alpha, m", "0.30982 m", [0, 1.5 if long else 0.9], [EXPECTED] * 2, style="k--")
-    momentum_of_everything(record, 1e-8 if long else 6e-12)
+    momentum_of_everything(record, 1e-8 if long else 3.1e-12)
     return record.write()
 
 
