@@ -47,6 +47,9 @@ struct CarriedContacts {
 struct CarriedRow {
   CarriedContacts contacts;
   Vec3 path;  // covered in this window, m
+  // s, without a fluid that there is: new since the last window began. The fluid's pressure has yet to act.
+  double waited = 0;
+  double known = 0;  // 1: it was there when a window began
   CarriedSurface surface;
   CarriedFluid fluid[2];  // liquid, gas
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
-#include <fmt/format.h>
-
-#include <cassert>
 #include <type_traits>
+#include <utility>
 
-#include "coupler/base/errors.hpp"
 #include "coupler/closures/lift.hpp"
 #include "coupler/closures/spin_lift.hpp"
 #include "coupler/config/enum_names.hpp"
@@ -28,16 +25,6 @@ bool touches(const Vec3& contact, const Vec3& weight) {
 constexpr Vec3 WindowImpulses::*window_impulses[] = {
     &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
     &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
-
-// The own wake is that of a point force when it is spread over at least a diameter.
-void require_spread(const WakeWidth& width, double diameter) {
-  if (width(diameter) >= diameter) return;
-  throw InputError(fmt::format(
-      "forces.own_wake: averaging spreads a particle's force over {:.3g} m in the velocity that it feels, "
-      "which "
-      "must be a diameter ({:.3g} m) at least: use wider bulk cells or a wider kernel, or leave own_wake out",
-      width(diameter), diameter));
-}
 
 void store(double* components, const Vec3& vector) {
   components[0] = vector.x;
@@ -76,11 +63,6 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
       attach(DragClosure<rong>{rong_range});
       break;
   }
-}
-
-void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diameter) {
-  require_spread(width, largest_diameter);
-  own_wake_width_ = width;
 }
 
 /// beta of a fluid all around it; at the window's first step the drag's exponent as well.
@@ -137,61 +119,6 @@ void FluidForces::go_on_from(double window, int steps) {
 
 double* const* FluidForces::gradient_rows() const {
   return need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
-}
-
-void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
-  const ParticleArrays particles = dem_.particles();
-  assert(static_cast<int>(fluids.fluid[0].size()) == particles.count);
-  const bool two = !fluids.surface.empty();
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradients = gradient_rows();
-  for (int i = 0; i < particles.count; ++i) {
-    if (own_wake_width_) require_spread(*own_wake_width_, 2 * particles.radius[i]);
-    const double volume = sphere_volume(particles.radius[i]);
-    const CarriedRow before = carried_by(rows, i);
-    CarriedRow row;
-    for (int k = 0; k < (two ? 2 : 1); ++k) {
-      const FluidAtParticle& here = fluids.fluid[k][i];
-      const double beta = mean_drag_factor(before, k);  // of the window that left something over
-      CarriedFluid& fluid = row.fluid[k];
-      fluid.velocity = here.velocity;
-      fluid.density = here.density;
-      fluid.viscosity = here.viscosity;
-      fluid.void_fraction = here.void_fraction;
-      if (parameters_.pressure_gradient) fluid.pressure_force = -volume * here.pressure_gradient;
-      fluid.left_over_force = beta / window * here.left_over_rate;
-      if (gradients)
-        carried_by<CarriedGradientsRow>(gradients, i).fluid[k] = {
-            volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
-    }
-    if (two) {
-      row.surface = carried_surface(fluids.surface[i], row.fluid[0].velocity);
-      for (int k = 0; k < 2; ++k)  // told of one fluid only: all of it is there
-        if (row.fluid[k].density == 0 && row.fluid[1 - k].density > 0) row.surface = {k == 0 ? 1.0 : 0.0, {}};
-    }
-    carried_by(rows, i) = row;
-  }
-  begun_ = true;
-  window_ = window;
-  steps_ = 0;
-  force_sums_ = {};
-  drag_count_ = lift_count_ = spin_lift_count_ = {};
-  if (torque_) torque_->begin_window();
-  if (history_) history_->begin_window();
-}
-
-void FluidForces::tell_sizes(int k, const std::vector<SizeMix>& sizes) {
-  double* const* rows = dem_.particle_rows(rows_name);
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    carried_by(rows, static_cast<int>(i)).fluid[k].sizes = sizes[i];
-}
-
-void FluidForces::see_surface(const std::vector<SeenSurface>& surface) {
-  double* const* rows = dem_.particle_rows(rows_name);
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    CarriedRow& row = carried_by(rows, static_cast<int>(i));
-    if (row.waits()) row.surface = carried_surface(surface[i], {});
-  }
 }
 
 Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
@@ -256,6 +183,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     }
     store(external[i], moves ? constant : Vec3{});
     if (row.waits()) {
+      if (moves && row.known == 0) row.waited += step;
       if (torque) torque->act(particles, i, {});
       continue;
     }
@@ -269,8 +197,9 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, step);
     struct Part {  // in one fluid
       double beta = 0, added = 0;
-      Vec3 slip, across;
+      Vec3 slip, across, overdue;
     } parts[2];
+    const double late = half_step_ ? 0 : std::exchange(row.waited, 0.0) / step;
     FluidTorque::Grip grip;
     double beta = 0, added = 0;
     Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt
@@ -286,6 +215,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       fluid.drag_factor_sum += part.beta;
       steady += share * fluid.pressure_force;
       sums.pressure += share * fluid.pressure_force;
+      part.overdue = late * share * fluid.pressure_force;
       if constexpr (with_gradients) {
         const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
         part.added = added_mass(row, k, radius);
@@ -301,6 +231,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
         }
         steady += share * gradients.stress_force;
         sums.stress += share * gradients.stress_force;
+        part.overdue += late * (share * gradients.stress_force +
+                                part.added * (gradients.acceleration - 1 / mass * weight));
         accelerated += part.added * gradients.acceleration;
         if (k == 0 && wetted > 0)
           part.beta += parameters_.added_mass * (fluid.density - row.fluid[1].density) *
@@ -314,8 +246,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     if (history && !row.feels(0)) history->forget(i);
     Vec3 drag = pull, acceleration;
     if (moves) {
-      const Vec3 others =
-          contact + weight + constant + steady + parts[0].across + parts[1].across + accelerated;
+      const Vec3 others = contact + weight + constant + steady + parts[0].across + parts[1].across +
+                          accelerated + parts[0].overdue + parts[1].overdue;
       if (beta > 0) drag = implicit_drag(beta, pull / beta, others, mass + added, step);
       acceleration = (drag + others) / (mass + added);
     }
@@ -325,12 +257,13 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       const Part& part = parts[k];
       // Both fluids see the same mean velocity of the step.
       Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
+      of_fluid += part.overdue;
       if constexpr (with_gradients) {
         CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
         if (history && k == 0)
           history->remember(i, row.share(0), part.slip, gradients.acceleration - acceleration);
         const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
-        gradients.other_impulse += step * other;
+        gradients.other_impulse += step * (other + part.overdue);
         of_fluid += other;
       }
       row.fluid[k].drag_impulse += step * of_fluid;

@@ -14,6 +14,10 @@
 //                1929)
 //   F_history  = history.hpp, of the liquid or the only fluid; the present step's part as an added mass
 //   F_constant the case file's
+//   F_overdue  of a particle that came into being in a window and was told of no fluid before the next, in
+//   the
+//                first step of that: (F_pressure + F_stress + m_a (Du/Dt - g)) t_waited/dt; drag is not made
+//                up for
 //
 // and a torque (fluid_torque.hpp).
 //
@@ -23,8 +27,9 @@
 // mixed.
 //
 // u and its derivatives, grad p, rho, mu and M_i are constant over a window, beta and v are not. What the
-// fluid gets back through the exchange is the reaction to drag, lift and added mass: they make up the
-// drag impulse. Pressure and stress are the particle's share of terms that stand in the fluid's equation.
+// fluid gets back through the exchange is the reaction to drag, lift, added mass and what is overdue: they
+// make up the drag impulse. Pressure and stress are the particle's share of terms that stand in the fluid's
+// equation.
 //
 // Time levels. LIGGGHTS integrates by velocity Verlet. When it asks for forces at step n, it holds
 // x(n) and v(n-1/2), and the force found takes v to n+1/2. The momentum of these half steps,

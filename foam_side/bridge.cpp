@@ -113,12 +113,16 @@ Bridge::PressureImpulses Bridge::pressure_impulses() const {
     all.owed += fluid.owed_in_all();
     all.returned += fluid.returned();
     all.turnover += fluid.turnover();
+    all.held_back.cells += fluid.held_back().cells;
+    all.held_back.impulse += fluid.held_back().impulse;
   }
   all.tension = tension_;
   all.seen += unclaimed_;
   for (Vec3* part : {&all.seen, &all.owed, &all.returned, &all.tension})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   Foam::reduce(all.turnover, Foam::sumOp<double>());
+  Foam::reduce(all.held_back.cells, Foam::sumOp<long>());
+  Foam::reduce(all.held_back.impulse, Foam::sumOp<double>());
   return all;
 }
 

@@ -69,6 +69,7 @@ class Bridge {
   struct PressureImpulses {
     Vec3 seen, owed, returned, tension;
     double turnover = 0;  // of what went back, summed by its size in each bulk cell
+    OwedPressure::HeldBack held_back;
   };
   PressureImpulses pressure_impulses() const;
   /// Over all ranks.

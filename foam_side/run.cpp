@@ -214,6 +214,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.fluid.owed_pressure = pressure.owed;
     done.fluid.returned_pressure = pressure.returned;
     done.fluid.returned_turnover = pressure.turnover;
+    done.held_back = pressure.held_back;
     done.fluid.outside.surface_tension += pressure.tension;
     if (replaces) {
       done.replacement = replacement;

@@ -204,6 +204,8 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
       limits_.full_cells += window.full_cells;
+      limits_.held_back.cells += window.held_back.cells;
+      limits_.held_back.impulse = std::max(limits_.held_back.impulse, window.held_back.impulse);
     }
     if (window.replacement) {
       const ReplacementBooks& books = *window.replacement;
@@ -305,6 +307,11 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
         "displaced, and conservation.solid_volume has the error. Try a coarser bulk_grid, a larger "
         "coupling.averaging.width or a smaller coupling.averaging.maximum_solid_fraction",
         limits_.full_cells));
+  if (limits_.held_back.cells > 0)
+    lines.push_back(
+        fmt::format("bulk cells that hold next to no particles owed them more pressure than ten times the "
+                    "steepest there, {} times: up to {:.3g} N s waited for a later window",
+                    limits_.held_back.cells, limits_.held_back.impulse));
   if (limits_.waiting_particles > 0)
     lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
                                 limits_.waiting_particles));

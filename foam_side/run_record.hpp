@@ -13,6 +13,7 @@
 #include "coupler/config/parameters.hpp"
 #include "coupler/config/program_options.hpp"
 #include "coupler/exchange/books.hpp"
+#include "coupler/exchange/owed_pressure.hpp"
 #include "coupler/exchange/window_rule.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/output/history.hpp"
@@ -62,6 +63,7 @@ class RunRecord {
     long relaxed_cells = 0;   // bulk cells with a factor below 1
     long negative_cells = 0;  // fine cells whose solid fraction was interpolated below 0
     long full_cells = 0;      // fine cells with more solid than leaves room for the fluid
+    OwedPressure::HeldBack held_back;
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
     std::optional<ParticleReport> particles;      // not without particles
     FluidSeconds seconds;
@@ -100,6 +102,7 @@ class RunRecord {
     long relieved_cells = 0, waiting_particles = 0, outside_particles = 0, negative_cells = 0;
     long full_cells = 0;
     long crossing_windows = 0;
+    OwedPressure::HeldBack held_back;                 // cells: over the windows; impulse: most in one
     double drop_resolution = 1e9;                     // fewest cells per diameter
     double relieved_volume = 0, unplaced_volume = 0;  // m3
     double unplaced_left_over = 0;                    // N s

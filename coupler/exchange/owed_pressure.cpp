@@ -22,6 +22,7 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
                         const CellValues<BulkParticles>& particles, double window, double pace) {
   seen_ = {};
   heard_.clear();
+  held_back_ = {};
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
     const CellId cell = fluid.cells[i];
     const BulkParticles* here = find(particles, cell);
@@ -36,7 +37,11 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
     Vec3 part = 0.5 * pace * relaxation[i] * owed->second.impulse;
     const double steepest = std::max(steepest_[cell], norm(gradient));
     const double most = most_of_gradient * steepest * here->solid_volume * window;
-    if (norm(part) > most) part *= most / norm(part);
+    if (const double size = norm(part); size > most) {
+      part *= most / size;
+      ++held_back_.cells;
+      held_back_.impulse += size - most;
+    }
     gradient -= part / (here->solid_volume * window);
     owed->second.impulse -= part;
     seen_ += part;

@@ -64,6 +64,13 @@ class OwedPressure {
   /// Sum over the cells of the size of what was returned, N s: it may cancel.
   double turnover() const { return turnover_; }
 
+  /// What the last telling kept back because it would have changed a gradient by too much.
+  struct HeldBack {
+    long cells = 0;
+    double impulse = 0;  // N s, summed by its size in each bulk cell
+  };
+  const HeldBack& held_back() const { return held_back_; }
+
   struct State {
     CellValues<LeftOver::Owed> owed;
     CellValues<Vec3> elsewhere;   // goes back to the fluid, N s
@@ -86,6 +93,7 @@ class OwedPressure {
   std::map<CellId, double> steepest_;  // gradient that the fluid has had where something is owed, Pa/m
   Vec3 seen_, returned_, on_its_way_;
   double turnover_ = 0, turnover_on_its_way_ = 0;
+  HeldBack held_back_;
 };
 
 }  // namespace demvof

@@ -197,6 +197,16 @@ TEST(LimitSolid, NothingGoesWhereThereIsNoFluidOrRoundForEver) {
   EXPECT_DOUBLE_EQ(outcome.relief.not_placed, 0.25);
 }
 
+/// An overfull cell between a closed and a full one: all of it goes to the full one, and on to the next.
+TEST(LimitSolid, AFullRegionGivesNothingToItsClosedNeighbours) {
+  const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
+  const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, {{1, 0.75}, {2, 0.5}}, {{0, 0.0}});
+  EXPECT_EQ(outcome.volumes.count(0), 0u);
+  EXPECT_NEAR(outcome.volumes.at(1), 0.5, 1e-12);
+  EXPECT_NEAR(outcome.volumes.at(2), 0.5, 1e-12);
+  EXPECT_NEAR(outcome.volumes.at(3), 0.25, 1e-12);
+}
+
 TEST(LimitSolid, SaysWhatTheGridHasNoRoomFor) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   const Outcome outcome = limited(MPI_COMM_WORLD, grid, 0.5, {{0, 1.0}, {1, 0.25}});

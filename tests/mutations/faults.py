@@ -17,6 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
+HALF = {"^pair.half_submerged$": PAIR}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
@@ -74,6 +75,8 @@ FAULTS = [
     ("coupler/exchange/owed_pressure.cpp", "gradient -= part / (here->solid_volume * window);",
      "gradient += part / (here->solid_volume * window);", OWED),
     ("coupler/exchange/owed_pressure.cpp", "owed.impulse -= back;", "", OWED),
+    ("coupler/exchange/owed_pressure.cpp", "size > most)", "size > 1e9 * most)", OWED),
+    ("dem_side/forces.cpp", "row.waited += step;", "row.waited += 0 * step;", COMING),
     ("coupler/exchange/owed_pressure.cpp", "0.5 * pace * relaxation[i]", "0.5 / pace * relaxation[i]", OWED),
     ("coupler/exchange/seen_fluid.cpp", "ratio_ == 1 ? simulated : over_window(simulated, ratio_)", "simulated", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "const double response = response_times(theta) * theta;",
@@ -107,7 +110,7 @@ FAULTS = [
      "limit[open_share.cells[i] - around->cells().front()] *= 1", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "|| limit[c] == 0) continue;", ") continue;", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "slot >= 0 && beside_place[slot].open > 0", "slot >= 0", AVERAGING),
-    ("dem_side/history_force.cpp", "(share - before) / step_ * slip", "0 * slip", HISTORY),
+    ("dem_side/history_force.cpp", "(share - before) / step_ * slip", "(before - share) / step_ * slip", HISTORY),
     ("coupler/transfer/relocation.hpp", "add(value, gift.share, beside[around_->beside()[gift.cell][face]]);",
      "add(value, 0 * gift.share, beside[around_->beside()[gift.cell][face]]);", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.hpp", "if (!relocation_.empty()) owned = relocation_.gather(owned);",
@@ -124,13 +127,13 @@ FAULTS = [
     ("coupler/transfer/tetrahedron.cpp", "(plane - a[axis]) / (b[axis] - a[axis])",
      "(plane - b[axis]) / (b[axis] - a[axis])", MAPPING),
     # ---- forces on the particles
-    ("dem_side/forces.cpp", "fluid.pressure_force = -volume * here.pressure_gradient",
+    ("dem_side/begin_window.cpp", "fluid.pressure_force = -volume * here.pressure_gradient",
      "fluid.pressure_force = volume * here.pressure_gradient", FORCES),
-    ("dem_side/forces.cpp", "fluid.left_over_force = beta / window * here.left_over_rate",
+    ("dem_side/begin_window.cpp", "fluid.left_over_force = beta / window * here.left_over_rate",
      "fluid.left_over_force = beta * here.left_over_rate", FORCES),
     ("dem_side/forces.cpp", "sums.pressure += share * fluid.pressure_force;",
-     "sums.pressure += fluid.pressure_force;", FORCES),
-    ("dem_side/forces.cpp", "gradients.other_impulse += step * other;", "", FORCES),
+     "sums.pressure += fluid.pressure_force;", HALF),
+    ("dem_side/forces.cpp", "gradients.other_impulse += step * (other + part.overdue);", "", FORCES),
     ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
      "store(external[i], given + steady);", FORCES),
     ("dem_side/forces.cpp", "if (half_step_ && !moves) {", "if (half_step_ && moves && !moves) {", START),

@@ -99,6 +99,18 @@ TEST(Books, WhatFindsNoParticleStaysPending) {
   EXPECT_EQ(books.state().unplaced.x, -0.375);
 }
 
+/// The fluid keeps a part of what it owes for a window: the particles' cell was not told.
+TEST(Books, WhatTheFluidKeepsStaysPending) {
+  Books books = staggered();
+  Reports first = reports({1, 0, 0}, {}, {0.5, 0, 0}, {});
+  books.window(first.fluid, first.particles);
+  Reports second = reports({1, 0, 0}, {-0.4375, 0, 0}, {}, first.particles.momentum);
+  second.fluid.kept_left_over = {-0.0625, 0, 0};
+  books.window(second.fluid, second.particles);
+  EXPECT_EQ(books.pending().x, -0.0625);
+  EXPECT_EQ(books.worst().exchange, 0);
+}
+
 TEST(Books, GoOnFromTheirState) {
   Books books = staggered();
   Reports first = reports({1, 2, 3}, {}, {0.25, 0, -1}, {});

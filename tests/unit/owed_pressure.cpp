@@ -74,6 +74,8 @@ TEST(OwedPressure, TellsNothingSteeperThanTheFluidHasBeen) {
   owed.tell(seen, {1, 1}, particles(1e-16), window);
   EXPECT_NEAR(seen.values[0].pressure_gradient.z, -4 - 40, 1e-9);
   EXPECT_NEAR(owed.owed_in_all().z / 1e-9, 1, 1e-3) << "and keeps it";
+  EXPECT_EQ(owed.held_back().cells, 1);
+  EXPECT_NEAR(owed.held_back().impulse / 0.5e-9, 1, 1e-3) << "half of it had its turn";
 }
 
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {
