@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the check.py of the cases share: a run read from its folder, and a table of checked numbers."""
+import math
 import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "coupler" / "cli"))
 
+from reporting.fields import particle_arrays  # noqa: E402
 from reporting.run import NoRun, Run  # noqa: E402
 
 
@@ -16,6 +18,32 @@ def run_from_command_line(case_folder):
     except NoRun as error:
         print(f"check: {error}", file=sys.stderr)
         sys.exit(2)
+
+
+def beads(run, time):
+    """Of the output at that time: arrays by name, rows by the beads' id; none if there is no such output."""
+    try:
+        return particle_arrays(run.folder, time)
+    except ImportError as error:
+        print(f"check: VTK's Python modules are not installed (Debian: python3-vtk9): {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+def schiller_naumann(reynolds):
+    """Drag coefficient of a sphere (1933)."""
+    return 24 * (1 + 0.15 * reynolds**0.687) / reynolds if reynolds < 1000 else 0.44
+
+
+def terminal_velocity(diameter, density, fluid_density, viscosity, drag_coefficient=schiller_naumann, gravity=9.81):
+    """Of a sphere: the root of weight - buoyancy - drag, by bisection, m/s; viscosity in Pa s."""
+    weight = (density - fluid_density) * math.pi / 6 * diameter**3 * gravity
+    low, high = 1e-6, 10.0
+    while high - low > 1e-12:
+        speed = 0.5 * (low + high)
+        reynolds = fluid_density * speed * diameter / viscosity
+        drag = math.pi * diameter**2 / 8 * drag_coefficient(reynolds) * fluid_density * speed**2
+        low, high = (speed, high) if drag < weight else (low, speed)
+    return low
 
 
 class Checks:

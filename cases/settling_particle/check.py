@@ -14,24 +14,11 @@ import numpy
 here = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(here.parent))
 
-from checks import Checks, run_from_command_line  # noqa: E402
+from checks import Checks, run_from_command_line, terminal_velocity  # noqa: E402
 
 DIAMETER, DENSITY = 2.7e-3, 2500.0  # of the bead, m and kg/m3
-FLUID_DENSITY, VISCOSITY, GRAVITY = 1000.0, 1e-3, 9.81  # kg/m3, Pa s, m/s2
+FLUID_DENSITY, VISCOSITY = 1000.0, 1e-3  # kg/m3, Pa s
 VOLUME = math.pi / 6 * DIAMETER**3
-
-
-def terminal_velocity():
-    """The root of weight - buoyancy - drag, by bisection, m/s."""
-    weight = (DENSITY - FLUID_DENSITY) * VOLUME * GRAVITY
-    low, high = 1e-6, 10.0
-    while high - low > 1e-12:
-        speed = 0.5 * (low + high)
-        reynolds = FLUID_DENSITY * speed * DIAMETER / VISCOSITY
-        coefficient = 24 * (1 + 0.15 * reynolds**0.687) / reynolds if reynolds < 1000 else 0.44
-        drag = math.pi * DIAMETER**2 / 8 * coefficient * FLUID_DENSITY * speed**2
-        low, high = (speed, high) if drag < weight else (low, speed)
-    return low
 
 
 def main():
@@ -43,7 +30,8 @@ def main():
     spacing = (upper[2] - lower[2]) / cells[2] / DIAMETER if cells else 0
     late = speeds[run.times >= 0.6 * run.times[-1]] if len(speeds) else speeds
     speed = float(late.mean()) if len(late) else None
-    checks.near(f"terminal velocity, bulk spacing {spacing:.1f} d", speed, terminal_velocity(), 0.01, "m/s")
+    checks.near(f"terminal velocity, bulk spacing {spacing:.1f} d", speed,
+                terminal_velocity(DIAMETER, DENSITY, FLUID_DENSITY, VISCOSITY), 0.01, "m/s")
     if len(late):
         checks.note("", f"{late.min():.4f} to {late.max():.4f} m/s from t = {0.6 * run.times[-1]:.2f} s on")
     return checks.exit_code()

@@ -145,6 +145,21 @@ class CaseChecks(unittest.TestCase):
         self.expect(case, results(particles={"lost": 0, "final": 3000}, **column), table(0.31005), "")
         self.expect(case, results(particles={"lost": 0, "final": 3000}, **column), table(0.30982), "level")
 
+    def test_liquid_fluidised_bed(self):
+        weight, solid = 640 * 1500 * math.pi / 6 * 2e-3**3 * 9.81, 640 * math.pi / 6 * 2e-3**3 / 0.0176**2
+
+        def table(*eps):  # 80, 65, 50 and 35 mm/s
+            return history(time=[2.5, 5.5, 8.5, 11.5],
+                           particle_potential_energy=[weight * (0.0088 + 0.5 * solid / (1 - e)) for e in eps])
+
+        case, law = "liquid_fluidised_bed", (0.8462, 0.7794, 0.7020, 0.6089)
+        self.expect(case, results(), table(*law), "")
+        self.expect(case, results(conservation__exchange=1e-11), table(*law), "exchange")
+        for place, velocity in enumerate((80, 65, 50, 35)):
+            for factor in (0.96, 1.04):
+                wrong = [e * (factor if at == place else 1) for at, e in enumerate(law)]
+                self.expect(case, results(), table(*wrong), f"{velocity} mm/s")
+
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
                               text=True, check=False)

@@ -160,31 +160,41 @@ def cells(array, points, axes):
     return [corners[connectivity[a:b]] for a, b in zip(offsets[:-1], offsets[1:])]
 
 
-def particles(folder, time):
-    """Positions, radii and speeds of the series' output at that time; empty arrays if there is none."""
+def particle_arrays(folder, time):
+    """Arrays by name, "position" among them, of the series' output at that time, rows sorted by the particles' id; none
+    if there is no such output or no particle in it."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
-    nothing = numpy.zeros((0, 3)), numpy.zeros(0), numpy.zeros(0)
     index = folder / "particles" / "particles.pvd"
     if not index.is_file():
-        return nothing
+        return {}
     files = {float(e.get("timestep")): e.get("file") for e in xml.etree.ElementTree.parse(index).iter("DataSet")}
     nearest = min(files, key=lambda t: abs(t - time), default=None)
     if nearest is None or not math.isclose(nearest, time, rel_tol=1e-6, abs_tol=1e-9):
-        return nothing
+        return {}
     path = index.parent / files[nearest]
     if not path.is_file():
-        return nothing
+        return {}
     reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     reader.Update()
     data = reader.GetOutput()
     if data.GetNumberOfPoints() == 0:
-        return nothing
-    velocity = vtk_to_numpy(data.GetPointData().GetArray("velocity"))
-    return (vtk_to_numpy(data.GetPoints().GetData()), vtk_to_numpy(data.GetPointData().GetArray("radius")),
-            numpy.linalg.norm(velocity, axis=1))
+        return {}
+    values = data.GetPointData()
+    arrays = {values.GetArrayName(i): vtk_to_numpy(values.GetArray(i)) for i in range(values.GetNumberOfArrays())}
+    arrays["position"] = vtk_to_numpy(data.GetPoints().GetData())
+    order = numpy.argsort(arrays["id"])
+    return {name: array[order] for name, array in arrays.items()}
+
+
+def particles(folder, time):
+    """Positions, radii and speeds of the series' output at that time; empty arrays if there is none."""
+    arrays = particle_arrays(folder, time)
+    if not arrays:
+        return numpy.zeros((0, 3)), numpy.zeros(0), numpy.zeros(0)
+    return arrays["position"], arrays["radius"], numpy.linalg.norm(arrays["velocity"], axis=1)
 
 
 def main():
