@@ -161,8 +161,8 @@ def cells(array, points, axes):
 
 
 def particle_arrays(folder, time):
-    """Arrays by name, "position" among them, of the series' output at that time, rows sorted by the particles' id; none
-    if there is no such output or no particle in it."""
+    """Arrays by name, "position" among them, of the series' output at that time, rows sorted by the particles' id if they
+    have one; none if there is no such output or no particle in it."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
@@ -185,7 +185,7 @@ def particle_arrays(folder, time):
     values = data.GetPointData()
     arrays = {values.GetArrayName(i): vtk_to_numpy(values.GetArray(i)) for i in range(values.GetNumberOfArrays())}
     arrays["position"] = vtk_to_numpy(data.GetPoints().GetData())
-    order = numpy.argsort(arrays["id"])
+    order = numpy.argsort(arrays["id"]) if "id" in arrays else slice(None)
     return {name: array[order] for name, array in arrays.items()}
 
 
