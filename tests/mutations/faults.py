@@ -158,9 +158,9 @@ FAULTS = [
     ("foam_side/bridge.cpp", "left_over_[k].collect({{cell}, {-impulse}}, particles);",
      "left_over_[k].collect({{cell}, {impulse}}, particles);", DROP),
     ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
-     "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", BED),
+     "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", {**BED, **HALF}),
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
     ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
-     "(eps - porosity.eps.primitiveField()) / (flow.clock", BED),
+     "(eps - porosity.eps.primitiveField()) / (flow.clock", {**BED, **COMING}),
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
 ]
