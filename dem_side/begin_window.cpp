@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-
 #include "coupler/base/errors.hpp"
 #include "dem_side/forces.hpp"
 
@@ -30,7 +28,6 @@ void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diame
 
 void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   const ParticleArrays particles = dem_.particles();
-  assert(static_cast<int>(fluids.fluid[0].size()) == particles.count);
   const bool two = !fluids.surface.empty();
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* gradients = gradient_rows();
@@ -40,7 +37,7 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
     const CarriedRow before = carried_by(rows, i);
     CarriedRow row;
     for (int k = 0; k < (two ? 2 : 1); ++k) {
-      const FluidAtParticle& here = fluids.fluid[k][i];
+      const FluidAtParticle here = fluids.fluid[k](i);
       const double beta = mean_drag_factor(before, k);  // of the window that left something over
       CarriedFluid& fluid = row.fluid[k];
       fluid.velocity = here.velocity;

@@ -21,12 +21,9 @@ void FluidForces::keep_to_reached_fluids(const std::function<bool(int, int)>& re
   }
 }
 
-std::vector<BulkParticles> FluidForces::contributions(int k) const {
-  const ParticleArrays particles = dem_.particles();
-  std::vector<BulkParticles> contributions(particles.count);
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradients = gradient_rows();
-  for (int i = 0; i < particles.count; ++i) {
+std::function<BulkParticles(int)> FluidForces::contributions(int k) const {
+  return [this, k, particles = dem_.particles(), rows = dem_.particle_rows(rows_name),
+          gradients = gradient_rows()](int i) {
     const CarriedRow& row = carried_by(rows, i);
     const CarriedFluid& fluid = row.fluid[k];
     const double radius = particles.radius[i], mass = particles.mass[i];
@@ -35,7 +32,7 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
     const double held = held_share(row, particles.mask[i]);
     const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
     const double response = drag_response(tangent, mass, window_, held, added, other);
-    BulkParticles& here = contributions[i];
+    BulkParticles here;
     here.solid_volume = row.share(k) * sphere_volume(radius);
     here.solid_flux = here.solid_volume * (window_ > 0 ? row.path / window_ : vec3(particles.velocity[i]));
     if (dem_.moves(particles.mask[i])) {
@@ -57,37 +54,33 @@ std::vector<BulkParticles> FluidForces::contributions(int k) const {
       here.drag_weighted_velocity -=
           carried_by<CarriedGradientsRow>(gradients, i).fluid[k].other_impulse / window_;
     here.response_weighted_velocity = response * fluid.velocity;
-  }
-  return contributions;
+    return here;
+  };
 }
 
 // The drag C_s (u - v) of the window, C_s: beta_eff with the secant, is C (u - u_ref), u_ref = u - C_s/C (u -
 // v).
-std::vector<BulkParticles> FluidForces::expected_contributions(int k) const {
-  const ParticleArrays particles = dem_.particles();
-  std::vector<BulkParticles> expected = contributions(k);
-  double* const* rows = dem_.particle_rows(rows_name);
-  for (int i = 0; i < particles.count; ++i) {
+std::function<BulkParticles(int)> FluidForces::expected_contributions(int k) const {
+  return [this, k, particles = dem_.particles(), rows = dem_.particle_rows(rows_name),
+          contribution = contributions(k)](int i) {
+    BulkParticles expected = contribution(i);
     const CarriedRow& row = carried_by(rows, i);
     const double radius = particles.radius[i];
     const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
     const double secant =
         drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
                       held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
-    expected[i].drag_impulse = {};
+    expected.drag_impulse = {};
     // u_ref is to be this one everywhere, and nobody counts as held by it.
-    expected[i].drag_tangent = expected[i].free_response = expected[i].following_response = 0;
-    expected[i].response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
-  }
-  return expected;
+    expected.drag_tangent = expected.free_response = expected.following_response = 0;
+    expected.response_weighted_velocity -= secant * (row.fluid[k].velocity - vec3(particles.velocity[i]));
+    return expected;
+  };
 }
 
-std::vector<Support> FluidForces::support(int k) const {
-  const ParticleArrays particles = dem_.particles();
-  std::vector<Support> support(particles.count);
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* gradients = gradient_rows();
-  for (int i = 0; i < particles.count; ++i) {
+std::function<Support(int)> FluidForces::support(int k) const {
+  return [this, k, particles = dem_.particles(), rows = dem_.particle_rows(rows_name),
+          gradients = gradient_rows(), gravity = dem_.gravity()](int i) {
     const CarriedRow& row = carried_by(rows, i);
     const CarriedFluid& fluid = row.fluid[k];
     const double share = row.share(k);
@@ -95,14 +88,13 @@ std::vector<Support> FluidForces::support(int k) const {
     Vec3 others = fluid.pressure_force;
     if (gradients) others += carried_by<CarriedGradientsRow>(gradients, i).fluid[k].stress_force;
     if (moves) others += parameters_.constant;
-    if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * dem_.gravity();
+    if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * gravity;
     const double added = added_mass(row, 0, particles.radius[i]) + added_mass(row, 1, particles.radius[i]);
-    support[i] = {share * row.contacts.impulse, fluid.drag_impulse,
-                  window_ * (share * others + fluid.left_over_force),
-                  drag_response(mean_drag_tangent(row, k), particles.mass[i], window_, moves ? 0 : 1, added,
-                                mean_drag_tangent(row, 1 - k))};
-  }
-  return support;
+    return Support{share * row.contacts.impulse, fluid.drag_impulse,
+                   window_ * (share * others + fluid.left_over_force),
+                   drag_response(mean_drag_tangent(row, k), particles.mass[i], window_, moves ? 0 : 1, added,
+                                 mean_drag_tangent(row, 1 - k))};
+  };
 }
 
 }  // namespace demvof

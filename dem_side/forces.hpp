@@ -65,8 +65,8 @@ namespace demvof {
 
 /// The fluids at each local particle at the start of a window: liquid and gas, or one fluid and nothing more.
 struct FluidsAtParticles {
-  std::vector<FluidAtParticle> fluid[2];
-  std::vector<SeenSurface> surface;  // empty: one fluid
+  std::function<FluidAtParticle(int)> fluid[2];  // of local particle i
+  std::vector<SeenSurface> surface;              // empty: one fluid
 };
 
 /// Impulses of one window on this rank's particles, N s.
@@ -95,7 +95,7 @@ class FluidForces {
   void begin_window(const FluidsAtParticles& fluids, double window);
   /// The same with one fluid everywhere.
   void begin_window(const std::vector<FluidAtParticle>& fluid, double window) {
-    begin_window(FluidsAtParticles{{fluid, {}}, {}}, window);
+    begin_window(FluidsAtParticles{{[&fluid](int i) { return fluid[i]; }, {}}, {}}, window);
   }
   /// After that, for a drag law that asks for them (knows_sizes): the sizes in fluid k around each local
   /// particle.
@@ -113,14 +113,15 @@ class FluidForces {
   /// reached(k, i): local particle i reaches a cell with fluid k.
   void keep_to_reached_fluids(const std::function<bool(int, int)>& reached);
 
-  /// What each local particle adds to the bulk grid at the end of the window in fluid k, before weighting.
-  std::vector<BulkParticles> contributions(int k = 0) const;
+  /// What local particle i adds to the bulk grid at the end of the window in fluid k, before weighting. To be
+  /// asked for before the next DEM step.
+  std::function<BulkParticles(int)> contributions(int k = 0) const;
   /// The same for a window that has not been simulated yet: the drag that the fluid of its start asks for, as
   /// a reference velocity, so that the particles are owed what the fluid gets. After first_half_step().
-  std::vector<BulkParticles> expected_contributions(int k = 0) const;
+  std::function<BulkParticles(int)> expected_contributions(int k = 0) const;
 
   /// The same of what holds it.
-  std::vector<Support> support(int k = 0) const;
+  std::function<Support(int)> support(int k = 0) const;
 
   /// State of local particle i.
   const CarriedRow& carried(int i) const;

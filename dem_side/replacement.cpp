@@ -15,20 +15,21 @@ Replacement::Replacement(Dem& dem, double least_speed) : dem_(dem), least_speed_
   dem_.add_particle_rows(rows_name, 1);
 }
 
-void Replacement::begin_window(const std::vector<BulkInterface>& seen,
-                               const std::vector<FluidAtParticle>& liquid, double window) {
+void Replacement::begin_window(const std::function<BulkInterface(int)>& seen_at,
+                               const std::function<FluidAtParticle(int)>& liquid, double window) {
   const ParticleArrays particles = dem_.particles();
   double* const* rows = dem_.particle_rows(rows_name);
   decided_.clear();
   for (int i = 0; i < particles.count; ++i) {
     const Vec3 position = vec3(particles.position[i]), velocity = vec3(particles.velocity[i]);
     double& replaced = rows[i][0];
+    const BulkInterface seen = seen_at(i);
     const bool changes =
-        replaced > 0 ? seen[i].area == 0
-                     : hits_interface(seen[i], position, velocity, particles.radius[i], window, least_speed_);
+        replaced > 0 ? seen.area == 0
+                     : hits_interface(seen, position, velocity, particles.radius[i], window, least_speed_);
     if (!changes) continue;
     replaced = 1 - replaced;
-    const double drop = liquid[i].density * sphere_volume(particles.radius[i]), mass = particles.mass[i];
+    const double drop = liquid(i).density * sphere_volume(particles.radius[i]), mass = particles.mass[i];
     decided_.push_back(
         {position, mass / (mass + drop) * velocity, particles.radius[i], replaced > 0 ? 1.0 : -1.0});
   }
@@ -40,15 +41,10 @@ CellValues<Droplet> Replacement::droplets(const BulkGrid& grid, const BulkPartit
   return bring_to_owners(dem_.world(), partition, mine);
 }
 
-double Replacement::leave_out_replaced(std::vector<BulkParticles>& contributions) const {
-  double* const* rows = dem_.particle_rows(rows_name);
-  double volume = 0;
-  for (std::size_t i = 0; i < contributions.size(); ++i) {
-    if (rows[i][0] == 0) continue;
-    volume += contributions[i].solid_volume;
-    BulkParticles& here = contributions[i];
-    here.solid_volume = here.pressure_mobility = here.following_volume = 0;
-  }
+double Replacement::leave_out_replaced(int i, BulkParticles& contribution) const {
+  if (dem_.particle_rows(rows_name)[i][0] == 0) return 0;
+  const double volume = contribution.solid_volume;
+  contribution.solid_volume = contribution.pressure_mobility = contribution.following_volume = 0;
   return volume;
 }
 

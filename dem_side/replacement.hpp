@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <vector>
 
 #include "coupler/exchange/crossing.hpp"
@@ -25,14 +26,15 @@ class Replacement {
   /// weights of its bulk cells; liquid: what of the liquid it feels. window: s. A drop starts with the
   /// velocity that it and its particle come to when they stick together, v m/(m + rho_1 V): its momentum
   /// comes out of the particle's.
-  void begin_window(const std::vector<BulkInterface>& seen, const std::vector<FluidAtParticle>& liquid,
-                    double window);
+  void begin_window(const std::function<BulkInterface(int)>& seen,
+                    const std::function<FluidAtParticle(int)>& liquid, double window);
 
   /// What begin_window decided, brought to the owners of the bulk cells.
   CellValues<Droplet> droplets(const BulkGrid& grid, const BulkPartition& partition) const;
 
-  /// Takes the solid volume of replaced particles out of what they give to the bulk grid; returns it, m3.
-  double leave_out_replaced(std::vector<BulkParticles>& contributions) const;
+  /// Takes the solid volume of local particle i out of what it gives to the bulk grid if it is replaced;
+  /// returns that, m3.
+  double leave_out_replaced(int i, BulkParticles& contribution) const;
 
  private:
   Dem& dem_;

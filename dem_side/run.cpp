@@ -147,11 +147,14 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     std::vector<CellValues<BulkParticles>> by_fluid;
     replaced_volume = 0;
     for (int k = 0; k < averaging.fluids(); ++k) {
-      std::vector<BulkParticles> contributions = forces.contributions(k);
-      if (replacement) replaced_volume += replacement->leave_out_replaced(contributions);
-      by_fluid.push_back(averaging.in(k).deposit(contributions));
+      const auto contribution = [&, of = forces.contributions(k)](int i) {
+        BulkParticles here = of(i);
+        if (replacement) replaced_volume += replacement->leave_out_replaced(i, here);
+        return here;
+      };
+      by_fluid.push_back(averaging.in(k).deposit(contribution));
       if (hands_back_left_over(coupling.exchange))  // uses responses
-        count_support(averaging.in(k).deposit_records(forces.support(k)), by_fluid.back());
+        count_support(averaging.in(k).deposit_records<Support>(forces.support(k)), by_fluid.back());
     }
     return by_fluid;
   };

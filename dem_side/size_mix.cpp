@@ -13,16 +13,14 @@ struct SizeSums {
 
 std::vector<SizeMix> sizes_around(const ParticleArrays& particles, const FluidForces& forces, int k,
                                   AveragingInFluid& averaging) {
-  std::vector<SizeSums> own(particles.count);
-  for (int i = 0; i < particles.count; ++i) {
+  const auto around = averaging.sample_records(averaging.deposit_records<SizeSums>([&](int i) {
     const double volume = forces.carried(i).share(k) * sphere_volume(particles.radius[i]);
     const double diameter = 2 * particles.radius[i];
-    own[i] = {volume, volume / diameter, volume * diameter};
-  }
-  const std::vector<SizeSums> around = averaging.sample_records(averaging.deposit_records(own));
+    return SizeSums{volume, volume / diameter, volume * diameter};
+  }));
   std::vector<SizeMix> sizes(particles.count);
   for (int i = 0; i < particles.count; ++i) {
-    const SizeSums& sums = around[i];
+    const SizeSums sums = around(i);
     if (!(sums.surface > 0)) continue;
     const double sauter = sums.volume / sums.surface;
     sizes[i] = {sauter, sums.volume_times_diameter / sums.volume / sauter};

@@ -55,39 +55,31 @@ void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& t
   relocation_ = {};
   relief_ = {};
   outside_ = outside;
+  radii_ = radii;
   if (everywhere_)
-    weights_ = weights;
+    weights_.set(weights);
   else
-    weights_ = weights_in_share(weights, touched.fetch_from_owners(share_, 1.0), std::move(weights_));
-
-  // The diffusion kernel's weights are spread over so many cells afterwards that nothing of it is left.
-  own_solid_.assign(outside.size(), 0.0);
-  for (int i = 0; i < weights_.particles() && !diffusion_; ++i) {
-    double squares = 0;
-    for (int entry = weights_.first[i]; entry < weights_.first[i + 1]; ++entry)
-      squares += weights_.weight[entry] * weights_.weight[entry];
-    own_solid_[i] = squares * sphere_volume(radii[i]) / grid_.cell_volume();
-  }
+    weights_.set(weights, touched.fetch_from_owners(share_, 1.0));
 }
 
 /// A sphere's drag knows of its neighbours by the void fraction around it, in which its own volume does not
 /// count. In a suspension the room that it keeps free of others makes up for that: eight times its volume.
+/// The diffusion kernel's weights are spread over so many cells afterwards that nothing of it is left.
 double AveragingInFluid::around(int particle, double void_fraction) const {
-  return std::min(1.0, void_fraction + own_solid_[particle] * std::max(0.0, 1 - 8 * (1 - void_fraction)));
+  const double room = std::max(0.0, 1 - 8 * (1 - void_fraction));
+  if (diffusion_ || room == 0) return std::min(1.0, void_fraction);
+  const double own = weights_.squares(particle) * sphere_volume(radii_[particle]) / grid_.cell_volume();
+  return std::min(1.0, void_fraction + own * room);
 }
 
-const CellValues<BulkParticles>& AveragingInFluid::deposit(const std::vector<BulkParticles>& contributions) {
-  if (std::find(outside_.begin(), outside_.end(), 1) == outside_.end()) {
-    deposited_ = deposit_records(contributions);
-  } else {
-    std::vector<BulkParticles> counted = contributions;
-    for (std::size_t i = 0; i < counted.size(); ++i) {
-      if (!outside_[i]) continue;
-      counted[i] = {};
-      counted[i].drag_impulse = contributions[i].drag_impulse;  // of the window in which it left
-    }
-    deposited_ = deposit_records(counted);
-  }
+const CellValues<BulkParticles>& AveragingInFluid::deposit(
+    const std::function<BulkParticles(int)>& contribution) {
+  deposited_ = deposit_records<BulkParticles>([&](int particle) {
+    if (!outside_[particle]) return contribution(particle);
+    BulkParticles left;
+    left.drag_impulse = contribution(particle).drag_impulse;  // of the window in which it left
+    return left;
+  });
   if (!relocation_.empty()) return deposited_;
   LimitedSolid limited =
       limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_, walls_);
@@ -97,8 +89,8 @@ const CellValues<BulkParticles>& AveragingInFluid::deposit(const std::vector<Bul
   return deposited_;
 }
 
-std::vector<FluidAtParticle> AveragingInFluid::sample(const CellValues<BulkFluid>& owned,
-                                                      const CellValues<BulkFluidGradients>* gradients) {
+std::function<FluidAtParticle(int)> AveragingInFluid::sample(
+    const CellValues<BulkFluid>& owned, const CellValues<BulkFluidGradients>* gradients) {
   CellValues<CellSample> offered{owned.cells, std::vector<CellSample>(owned.cells.size())};
   unplaced_left_over_ = {};
   for (std::size_t i = 0; i < owned.cells.size(); ++i) {
@@ -116,35 +108,34 @@ std::vector<FluidAtParticle> AveragingInFluid::sample(const CellValues<BulkFluid
     else
       unplaced_left_over_ += fluid.left_over;
   }
-  const std::vector<CellSample> means = sample_records(std::move(offered));
-
-  std::vector<FluidAtParticle> at_particles(means.size());
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    const CellSample& mean = means[i];
-    if (outside_[i]) continue;
-    if (mean.fluid > 0)
-      at_particles[i] = {mean.velocity / mean.fluid,
-                         mean.pressure_gradient / mean.fluid,
-                         mean.density / mean.fluid,
-                         mean.viscosity / mean.fluid,
-                         {},
-                         around(static_cast<int>(i), mean.void_fraction / mean.fluid)};
-    at_particles[i].left_over_rate = mean.left_over_rate;
+  CellValues<GradientSample> steepness;
+  if (gradients) {
+    assert(gradients->cells == owned.cells);
+    steepness = {owned.cells, std::vector<GradientSample>(owned.cells.size())};
+    for (std::size_t i = 0; i < owned.cells.size(); ++i)
+      if (owned.values[i].density > 0) steepness.values[i] = {1, gradients->values[i]};
   }
-  if (!gradients) return at_particles;
+  const std::vector<GradientSample> slopes =
+      gradients ? fetch(std::move(steepness)) : std::vector<GradientSample>();
 
-  assert(gradients->cells == owned.cells);
-  CellValues<GradientSample> steepness{owned.cells, std::vector<GradientSample>(owned.cells.size())};
-  for (std::size_t i = 0; i < owned.cells.size(); ++i)
-    if (owned.values[i].density > 0) steepness.values[i] = {1, gradients->values[i]};
-  const std::vector<GradientSample> slopes = sample_records(std::move(steepness));
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    if (outside_[i] || !(slopes[i].fluid > 0)) continue;
-    const BulkFluidGradients& mean = slopes[i].gradients;
-    at_particles[i].gradients = {mean.stress_force / slopes[i].fluid, mean.acceleration / slopes[i].fluid,
-                                 mean.vorticity / slopes[i].fluid};
-  }
-  return at_particles;
+  return [this, cells = fetch(std::move(offered)), slopes](int particle) {
+    FluidAtParticle here;
+    if (outside_[particle]) return here;
+    const CellSample mean = weights_.sample(cells, particle);
+    here.left_over_rate = mean.left_over_rate;
+    if (!(mean.fluid > 0)) return here;
+    here.velocity = mean.velocity / mean.fluid;
+    here.pressure_gradient = mean.pressure_gradient / mean.fluid;
+    here.density = mean.density / mean.fluid;
+    here.viscosity = mean.viscosity / mean.fluid;
+    here.void_fraction = around(particle, mean.void_fraction / mean.fluid);
+    if (slopes.empty()) return here;
+    const GradientSample slope = weights_.sample(slopes, particle);
+    const BulkFluidGradients& sum = slope.gradients;
+    here.gradients = {sum.stress_force / slope.fluid, sum.acceleration / slope.fluid,
+                      sum.vorticity / slope.fluid};
+    return here;
+  };
 }
 
 }  // namespace demvof

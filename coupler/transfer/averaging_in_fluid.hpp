@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "coupler/transfer/bulk_walls.hpp"
 #include "coupler/transfer/diffusion.hpp"
 #include "coupler/transfer/fluid_at_particle.hpp"
-#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/fluid_weights.hpp"
 #include "coupler/transfer/limit_solid.hpp"
 
 namespace demvof {
@@ -30,44 +31,37 @@ class AveragingInFluid {
   void set_shares(CellValues<double> share);
   /// Faces of this rank's cells that nothing goes through.
   void set_walls(const CellValues<BulkWalls>& walls);
-  /// Where the particles are from here on: weights before shares, and their cells, which must outlive this.
+  /// Where the particles are from here on: weights before shares, and their cells; both must outlive this.
   /// outside: 1 for a particle without fluid around it; it leaves its impulse, displaces nothing and is told
   /// of no fluid.
   void weigh(const KernelWeights& weights, const TouchedCells& touched, const std::vector<char>& outside,
              const std::vector<double>& radii);
   /// True for a particle that reaches a cell with this fluid.
-  bool reached_by(int particle) const { return weights_.first[particle + 1] > weights_.first[particle]; }
+  bool reached_by(int particle) const { return weights_.reaches(particle); }
 
   /// Sums the particles' contributions into the bulk cells they reach; what is above the largest solid
   /// fraction of a cell counts in its neighbours, with all that it brings, and is told of the fluid there
-  /// (limit_solid.hpp). contributions: one per local particle. Returned: this rank's cells.
-  const CellValues<BulkParticles>& deposit(const std::vector<BulkParticles>& contributions);
-  /// Any records in the same way, after the first deposit() at these places.
-  template <class T>
-  CellValues<T> deposit_records(const std::vector<T>& records) {
-    std::vector<T> touched(weights_.cells.size());
-    demvof::deposit(weights_, reinterpret_cast<const double*>(records.data()), row_width<T>(),
-                    reinterpret_cast<double*>(touched.data()));
-    CellValues<T> owned = touched_->sum_to_owners(touched);
+  /// (limit_solid.hpp). contribution: of a local particle. Returned: this rank's cells.
+  const CellValues<BulkParticles>& deposit(const std::function<BulkParticles(int)>& contribution);
+  /// Any records in the same way, after the first deposit() at these places. record(i): a T of local particle
+  /// i.
+  template <class T, class Record>
+  CellValues<T> deposit_records(const Record& record) {
+    CellValues<T> owned = touched_->sum_to_owners(weights_.deposit<T>(record));
     if (diffusion_) owned = diffusion_->spread(std::move(owned));
     return relocation_.empty() ? owned : relocation_.spread(owned);
   }
 
   /// This fluid at each local particle. owned: this rank's cells of the last deposit. Cells without fluid do
   /// not count in the mean; a particle that reaches no other gets density 0. gradients: of the same cells,
-  /// when a force needs them.
-  std::vector<FluidAtParticle> sample(const CellValues<BulkFluid>& owned,
-                                      const CellValues<BulkFluidGradients>* gradients = nullptr);
-  /// Records of this rank's cells at each local particle: their mean, cells without a record counting as T{}.
+  /// when a force needs them. Returned: the fluid at local particle i, to be asked for before the next
+  /// weigh().
+  std::function<FluidAtParticle(int)> sample(const CellValues<BulkFluid>& owned,
+                                             const CellValues<BulkFluidGradients>* gradients = nullptr);
+  /// Records of this rank's cells at a local particle: their mean, cells without a record counting as T{}.
   template <class T>
-  std::vector<T> sample_records(CellValues<T> owned) const {
-    if (!relocation_.empty()) owned = relocation_.gather(owned);
-    if (diffusion_) owned = diffusion_->gather(std::move(owned));
-    const std::vector<T> cells = touched_->fetch_from_owners(owned, T{});
-    std::vector<T> means(weights_.particles());
-    demvof::sample(weights_, reinterpret_cast<const double*>(cells.data()), row_width<T>(),
-                   reinterpret_cast<double*>(means.data()));
-    return means;
+  auto sample_records(CellValues<T> owned) const {
+    return [this, cells = fetch(std::move(owned))](int particle) { return weights_.sample(cells, particle); };
   }
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
@@ -78,6 +72,12 @@ class AveragingInFluid {
   const Vec3& unplaced_left_over() const { return unplaced_left_over_; }
 
  private:
+  template <class T>
+  std::vector<T> fetch(CellValues<T> owned) const {
+    if (!relocation_.empty()) owned = relocation_.gather(owned);
+    if (diffusion_) owned = diffusion_->gather(std::move(owned));
+    return touched_->fetch_from_owners(owned, T{});
+  }
   double around(int particle, double void_fraction) const;
 
   MPI_Comm world_;
@@ -88,10 +88,9 @@ class AveragingInFluid {
   bool everywhere_ = true;    // on all ranks no such cells
   std::optional<Diffusion> diffusion_;
   CellValues<BulkWalls> walls_;
-  KernelWeights weights_;
+  FluidWeights weights_;
   std::vector<char> outside_;
-  std::vector<double>
-      own_solid_;  // share of each particle's own volume in the solid fraction that it samples, -
+  std::vector<double> radii_;  // m
   const TouchedCells* touched_ = nullptr;
   CellValues<BulkParticles> deposited_;
   Relocation relocation_;  // out of full cells, with the particles where they are

@@ -124,47 +124,4 @@ void count_open_shares(const std::vector<double>& share, KernelWeights& weights)
   }
 }
 
-KernelWeights weights_in_share(const KernelWeights& all, const std::vector<double>& share,
-                               KernelWeights storage) {
-  storage.cells = all.cells;
-  storage.first.assign(1, 0);
-  storage.slot.clear();
-  storage.weight.clear();
-  for (int particle = 0; particle < all.particles(); ++particle) {
-    double sum = 0;
-    for (int entry = all.first[particle]; entry < all.first[particle + 1]; ++entry)
-      sum += all.weight[entry] * share[all.slot[entry]];
-    for (int entry = all.first[particle]; sum > 0 && entry < all.first[particle + 1]; ++entry) {
-      const double weight = all.weight[entry] * share[all.slot[entry]];
-      if (weight == 0) continue;
-      storage.slot.push_back(all.slot[entry]);
-      storage.weight.push_back(weight / sum);
-    }
-    storage.first.push_back(static_cast<int>(storage.slot.size()));
-  }
-  return storage;
-}
-
-void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows) {
-  std::fill_n(cell_rows, weights.cells.size() * width, 0.0);
-  for (int particle = 0; particle < weights.particles(); ++particle) {
-    const double* row = rows + std::size_t(particle) * width;
-    for (int entry = weights.first[particle]; entry < weights.first[particle + 1]; ++entry) {
-      double* cell_row = cell_rows + std::size_t(weights.slot[entry]) * width;
-      for (int m = 0; m < width; ++m) cell_row[m] += weights.weight[entry] * row[m];
-    }
-  }
-}
-
-void sample(const KernelWeights& weights, const double* cell_rows, int width, double* rows) {
-  std::fill_n(rows, std::size_t(weights.particles()) * width, 0.0);
-  for (int particle = 0; particle < weights.particles(); ++particle) {
-    double* row = rows + std::size_t(particle) * width;
-    for (int entry = weights.first[particle]; entry < weights.first[particle + 1]; ++entry) {
-      const double* cell_row = cell_rows + std::size_t(weights.slot[entry]) * width;
-      for (int m = 0; m < width; ++m) row[m] += weights.weight[entry] * cell_row[m];
-    }
-  }
-}
-
 }  // namespace demvof

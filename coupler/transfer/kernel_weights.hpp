@@ -32,14 +32,4 @@ KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& av
 /// keeps its weights.
 void count_open_shares(const std::vector<double>& share, KernelWeights& weights);
 
-/// The same as weights of their own, in which a particle that reaches no open cell, and a cell of share 0,
-/// have no entries. storage: as above.
-KernelWeights weights_in_share(const KernelWeights& all, const std::vector<double>& share,
-                               KernelWeights storage = {});
-
-/// Sum over particles of w_ic * rows, per touched cell. rows: particles x width.
-void deposit(const KernelWeights& weights, const double* rows, int width, double* cell_rows);
-/// Sum over cells of w_ic * cell_rows, per particle: the transpose of deposit.
-void sample(const KernelWeights& weights, const double* cell_rows, int width, double* rows);
-
 }  // namespace demvof

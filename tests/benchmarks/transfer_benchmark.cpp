@@ -9,7 +9,7 @@
 #include <random>
 
 #include "coupler/transfer/diffusion.hpp"
-#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/fluid_weights.hpp"
 #include "coupler/transfer/remap.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -19,7 +19,6 @@ namespace {
 const BulkGrid grid({0, 0, 0}, {0.2, 0.1, 0.3}, {20, 10, 30});
 const int particle_count = 3900;
 const std::vector<double> radii(particle_count, 1.35e-3);
-const int row = row_width<BulkParticles>();
 
 std::vector<Vec3> bed() {  // lower 40 % of the box
   std::mt19937 random(1);
@@ -44,16 +43,21 @@ void make_weights(benchmark::State& state) {
 BENCHMARK(make_weights)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 void deposit_rows(benchmark::State& state) {
-  const KernelWeights weights = kernel_weights(grid, kernel(state), bed(), radii);
-  std::vector<double> rows(particle_count * row, 1.0), cell_rows(weights.cells.size() * row);
-  for (auto _ : state) deposit(weights, rows.data(), row, cell_rows.data());
+  const KernelWeights kernels = kernel_weights(grid, kernel(state), bed(), radii);
+  FluidWeights weights;
+  weights.set(kernels);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(weights.deposit<BulkParticles>([](int) { return BulkParticles{1}; }));
 }
 BENCHMARK(deposit_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
 void sample_rows(benchmark::State& state) {
-  const KernelWeights weights = kernel_weights(grid, kernel(state), bed(), radii);
-  std::vector<double> rows(particle_count * row), cell_rows(weights.cells.size() * row, 1.0);
-  for (auto _ : state) sample(weights, cell_rows.data(), row, rows.data());
+  const KernelWeights kernels = kernel_weights(grid, kernel(state), bed(), radii);
+  FluidWeights weights;
+  weights.set(kernels);
+  const std::vector<BulkParticles> cells(kernels.cells.size());
+  for (auto _ : state)
+    for (int i = 0; i < particle_count; ++i) benchmark::DoNotOptimize(weights.sample(cells, i));
 }
 BENCHMARK(sample_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 

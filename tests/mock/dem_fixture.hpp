@@ -52,6 +52,14 @@ inline std::string bead_properties() {
   return "set group all diameter " + std::to_string(bead_diameter) + " density " +
          std::to_string(bead_density) + "\n";
 }
+/// What a function gives for each local particle.
+template <class Of>
+auto all_of(const Of& of, const demvof::Dem& dem) {
+  std::vector<decltype(of(0))> all;
+  for (int i = 0; i < dem.particles().count; ++i) all.push_back(of(i));
+  return all;
+}
+
 inline const char* gravity = "fix g all gravity 9.81 vector 0 0 -1\n";
 inline const char* integrate = "fix integrate all nve/sphere\n";
 

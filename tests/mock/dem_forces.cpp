@@ -163,7 +163,7 @@ TEST(DemForces, AccountForEveryImpulse) {
     touched = touched || norm(impulses.contact) > 1e-3 * norm(impulses.gravity);
 
     Vec3 received;
-    for (const auto& particle : forces.contributions()) received += particle.drag_impulse;
+    for (const auto& particle : all_of(forces.contributions(), *scene.dem)) received += particle.drag_impulse;
     MPI_Allreduce(MPI_IN_PLACE, &received.x, 3, MPI_DOUBLE, MPI_SUM, scene.dem->world());
     EXPECT_LT(norm(received - impulses.drag), 1e-12 * norm(impulses.drag)) << n;
   }
@@ -182,7 +182,8 @@ TEST(DemForces, UseTheVoidFractionInTheDragLaw) {
     fluid.void_fraction = eps;
     window(*scene.dem, forces, fluid, 10);
     const double expected = bead_mass / 1e-3 * 150 * (1 - eps) / (18 * eps);  // Ergun's bed for Re -> 0
-    for (const auto& row : forces.contributions()) EXPECT_NEAR(row.drag_factor / expected, 1, 1e-12);
+    for (const auto& row : all_of(forces.contributions(), *scene.dem))
+      EXPECT_NEAR(row.drag_factor / expected, 1, 1e-12);
     const auto closures = forces.closures();
     ASSERT_EQ(closures.size(), 1u);
     EXPECT_EQ(closures[0].first, "gidaspow");
@@ -214,7 +215,7 @@ TEST(DemForces, StartALightSphereWithItsAddedMass) {
   // Of what buoyancy and weight gave, the fluid gets back what its added mass took.
   const WindowImpulses impulses = over_ranks(forces.impulses(), scene.dem->world());
   EXPECT_NEAR(impulses.drag.z / (-0.5 * 1000 * bead_volume * acceleration * 100 * step), 1, 1e-12);
-  for (const auto& row : forces.contributions()) {
+  for (const auto& row : all_of(forces.contributions(), *scene.dem)) {
     EXPECT_EQ(row.drag_factor, 0);
     EXPECT_NEAR(row.drag_weighted_velocity.z / (-impulses.drag.z / (100 * step)), 1, 1e-12);
   }
@@ -301,8 +302,8 @@ TEST(DemForces, TellFrozenRestingAndFreeParticlesApart) {
   window(*scene.dem, forces, syrup(relaxation, {0, 0, 1e-4}), 20);
   const double beta = bead_mass / relaxation;
   const auto particles = scene.dem->particles();
-  const auto rows = forces.contributions();
-  const auto support = forces.support();
+  const auto rows = all_of(forces.contributions(), *scene.dem);
+  const auto support = all_of(forces.support(), *scene.dem);
   for (int i = 0; i < particles.count; ++i) {
     const double x = particles.position[i][0];
     EXPECT_NEAR(rows[i].drag_factor / beta, 1, 1e-12);
@@ -339,7 +340,7 @@ TEST(DemForces, AnswerWithTheSlopeOfTheDrag) {
   const int steps = 5;
   forces.begin_window(std::vector<FluidAtParticle>(scene.dem->particles().count, stream), steps * 1e-5);
   scene.dem->run(steps);
-  const auto rows = forces.contributions();
+  const auto rows = all_of(forces.contributions(), *scene.dem);
   const auto particles = scene.dem->particles();
   for (int i = 0; i < particles.count; ++i) {
     const double x = 2 * rows[i].drag_factor * steps * 1e-5 / bead_mass;
@@ -347,7 +348,7 @@ TEST(DemForces, AnswerWithTheSlopeOfTheDrag) {
     EXPECT_NEAR(rows[i].drag_response / rows[i].drag_factor, particles.position[i][0] < 0.03 ? 2 : 2 * free,
                 1e-9);
     EXPECT_NEAR(rows[i].response_weighted_velocity.x, rows[i].drag_response, 1e-12 * rows[i].drag_response);
-    EXPECT_NEAR(forces.support()[i].free_response, rows[i].drag_response, 1e-12 * rows[i].drag_response);
+    EXPECT_NEAR(forces.support()(i).free_response, rows[i].drag_response, 1e-12 * rows[i].drag_response);
   }
 }
 

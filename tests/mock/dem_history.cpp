@@ -98,7 +98,7 @@ TEST(DemHistory, HandsTheReactionBack) {
     MPI_Allreduce(MPI_IN_PLACE, &given, 1, MPI_DOUBLE, MPI_SUM, scene.dem->world());
     EXPECT_NEAR((x_momentum(*scene.dem) - before) / given, 1, 1e-12) << n;
     double exchanged = 0;
-    for (const auto& row : forces.contributions()) exchanged += row.drag_impulse.x;
+    for (const auto& row : all_of(forces.contributions(), *scene.dem)) exchanged += row.drag_impulse.x;
     MPI_Allreduce(MPI_IN_PLACE, &exchanged, 1, MPI_DOUBLE, MPI_SUM, scene.dem->world());
     EXPECT_NEAR(exchanged / given, 1, 1e-12) << n;
   }
@@ -124,10 +124,9 @@ TEST(DemHistory, MeetsItsSlipOnEntry) {
   gas.density = 1, gas.viscosity = 1e-5;
   const auto advance = [&](const demvof::SeenSurface& surface, int steps) {
     const int count = scene.dem->particles().count;
-    forces.begin_window(
-        {{std::vector<FluidAtParticle>(count, liquid), std::vector<FluidAtParticle>(count, gas)},
-         std::vector<demvof::SeenSurface>(count, surface)},
-        steps * step);
+    forces.begin_window({{[&](int) { return liquid; }, [&](int) { return gas; }},
+                         std::vector<demvof::SeenSurface>(count, surface)},
+                        steps * step);
     scene.dem->run(steps);
     double impulse = forces.impulses().drag.z;
     MPI_Allreduce(MPI_IN_PLACE, &impulse, 1, MPI_DOUBLE, MPI_SUM, scene.dem->world());

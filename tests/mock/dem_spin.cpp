@@ -203,7 +203,7 @@ TEST(DemSpin, LiftsAndHandsTheReactionBack) {
   // Turns by 40 - 10 against the fluid, moves with -0.01 against it: w x v = -0.3 along y.
   const double lift = -pi / 8 * 1000 * bead_diameter * bead_diameter * bead_diameter * 30 * 1e-2;
   Vec3 given, reaction;
-  for (const auto& row : forces.contributions()) {
+  for (const auto& row : all_of(forces.contributions(), *scene.dem)) {
     given += row.drag_impulse;
     reaction += row.drag_weighted_velocity;
   }

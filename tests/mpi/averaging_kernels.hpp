@@ -52,7 +52,7 @@ class Averager {
       contributions.back().drag_factor = all.value[i];
     }
     averaging_.weigh(mine_.position, mine_.radius);
-    averaging_.in(0).deposit(contributions);
+    averaging_.in(0).deposit([&](int i) { return contributions[i]; });
   }
   /// All cells, on every rank.
   std::vector<double> deposit() const {
@@ -86,9 +86,9 @@ class Averager {
       put(fluid.values.back(), gradients.values.back(), cells[cell]);
     }
     gradients.cells = fluid.cells;
-    const std::vector<FluidAtParticle> felt = averaging_.in(0).sample(fluid, &gradients);
+    const auto felt = averaging_.in(0).sample(fluid, &gradients);
     std::vector<double> all(particles_, 0.0);
-    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = get(felt[i]);
+    for (std::size_t i = 0; i < number_.size(); ++i) all[number_[i]] = get(felt(static_cast<int>(i)));
     return sum(all);
   }
   double unplaced_left_over() const { return averaging_.unplaced_left_over().x; }

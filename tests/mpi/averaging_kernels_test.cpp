@@ -361,8 +361,9 @@ TEST_F(AveragingKernels, FullCellsShareWhatTheyBringAndAreTold) {
   Averaging averaging(MPI_COMM_WORLD, grid, partition, parameters);
   averaging.weigh(set.position, set.radius);
   AveragingInFluid& fluid = averaging.in(0);
-  fluid.deposit(contributions);
-  const CellValues<BulkParticles> again = fluid.deposit_records(contributions);
+  const auto contribution = [&](int i) { return contributions[i]; };
+  fluid.deposit(contribution);
+  const CellValues<BulkParticles> again = fluid.deposit_records<BulkParticles>(contribution);
   const auto share = [&grid](CellId cell) {
     const auto [i, j, k] = grid.ijk(cell);
     const int steps = std::abs(i - 1) + std::abs(j - 1) + std::abs(k - 1);
@@ -384,7 +385,9 @@ TEST_F(AveragingKernels, FullCellsShareWhatTheyBringAndAreTold) {
     told.values.back().density = 1;
     told.values.back().velocity.x = number;
   }
-  for (const FluidAtParticle& felt : fluid.sample(told)) EXPECT_NEAR(felt.velocity.x, expected, 1e-12);
+  const auto felt = fluid.sample(told);
+  for (std::size_t i = 0; i < contributions.size(); ++i)
+    EXPECT_NEAR(felt(static_cast<int>(i)).velocity.x, expected, 1e-12);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "coupler/transfer/axis_kernel.hpp"
+#include "coupler/transfer/fluid_weights.hpp"
 
 namespace demvof {
 namespace {
@@ -135,7 +136,9 @@ TEST(KernelWeights, LinearKernelSamplesLinearFieldsExactly) {
   const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points, radii(points, 1));
   std::vector<double> cell_values, values(points.size());
   for (const CellId cell : weights.cells) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
-  sample(weights, cell_values.data(), 1, values.data());
+  FluidWeights all;
+  all.set(weights);
+  for (int i = 0; i < weights.particles(); ++i) values[i] = all.sample(cell_values, i);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(values[i], field(points[i]), 2e-14);
 }
 
@@ -223,42 +226,62 @@ TEST(KernelWeights, AnEvenSpreadUpToTheWallStaysEven) {
   const std::vector<double> ones(points.size(), 1.0);
   for (const Kernel kernel : all_kernels) {
     const KernelWeights weights = kernel_weights(grid, averaging(kernel, 0.13), points, radii(points, 0.31));
-    std::vector<double> sums(weights.cells.size());
-    deposit(weights, ones.data(), 1, sums.data());
+    FluidWeights all;
+    all.set(weights);
+    const auto sums = all.deposit<double>([](int) { return 1.0; });
     ASSERT_EQ(sums.size(), 5u);
     for (const double sum : sums) EXPECT_NEAR(sum, 200, 0.01) << "kernel " << int(kernel);
   }
 }
 
-TEST(KernelWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
+struct Row {
+  double a = 1, b = 2, c = 3;  // sums start from 0 whatever these are
+};
+
+double dot(const Row& x, const Row& y) {
+  return x.a * y.a + x.b * y.b + x.c * y.c;
+}
+
+TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30}, {true, false, false});
   std::mt19937 random(11);
   std::uniform_real_distribution<> uniform(-1, 1);
+  const auto any_row = [&] { return Row{uniform(random), uniform(random), uniform(random)}; };
   const std::vector<Vec3> points = awkward_points(grid);
-  const int width = 5;
-  for (const Kernel kernel : all_kernels) {
-    const KernelWeights weights = kernel_weights(grid, averaging(kernel), points, radii(points, 0.13));
-    std::vector<double> a(points.size() * width), b(weights.cells.size() * width), deposited(b.size()),
-        sampled(a.size());
-    for (double& value : a) value = uniform(random);
-    for (double& value : b) value = uniform(random);
-    deposit(weights, a.data(), width, deposited.data());
-    sample(weights, b.data(), width, sampled.data());
-    for (int m = 0; m < width; ++m) {
+  for (const Kernel kernel : all_kernels)
+    for (const bool shared : {false, true}) {
+      const KernelWeights kernels = kernel_weights(grid, averaging(kernel), points, radii(points, 0.13));
+      std::vector<double> share;
+      for (std::size_t c = 0; shared && c < kernels.cells.size(); ++c)
+        share.push_back(std::max(0.0, uniform(random)));
+      FluidWeights weights;
+      weights.set(kernels, share);
+      std::vector<Row> a, b;
+      for (std::size_t i = 0; i < points.size(); ++i) a.push_back(any_row());
+      for (std::size_t c = 0; c < kernels.cells.size(); ++c) b.push_back(any_row());
+      const std::vector<Row> deposited = weights.deposit<Row>([&](int i) { return a[i]; });
       double given = 0, received = 0, left = 0, right = 0, size = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        given += a[i * width + m];
-        size += std::abs(a[i * width + m]);
-        right += a[i * width + m] * sampled[i * width + m];
+      for (int i = 0; i < weights.particles(); ++i) {
+        EXPECT_TRUE(shared || weights.reaches(i));
+        given += weights.reaches(i) ? a[i].c : 0;
+        size += std::sqrt(dot(a[i], a[i]));
+        right += dot(a[i], weights.sample(b, i));
+        double sum = 0, squares = 0;
+        weights.for_each_cell(i, [&](int slot, double weight) {
+          EXPECT_TRUE(share.empty() || share[slot] > 0);
+          sum += weight;
+          squares += weight * weight;
+        });
+        EXPECT_NEAR(sum, weights.reaches(i) ? 1 : 0, 1e-14);
+        EXPECT_EQ(weights.squares(i), squares);
       }
-      for (std::size_t c = 0; c < weights.cells.size(); ++c) {
-        received += deposited[c * width + m];
-        left += deposited[c * width + m] * b[c * width + m];
+      for (std::size_t c = 0; c < b.size(); ++c) {
+        received += deposited[c].c;
+        left += dot(deposited[c], b[c]);
       }
       EXPECT_NEAR(received, given, 1e-14 * size);
       EXPECT_NEAR(left, right, 1e-14 * size);
     }
-  }
 }
 
 }  // namespace
