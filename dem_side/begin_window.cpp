@@ -46,6 +46,8 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
       fluid.void_fraction = here.void_fraction;
       if (parameters_.pressure_gradient) fluid.pressure_force = -volume * here.pressure_gradient;
       fluid.left_over_force = beta / window * here.left_over_rate;
+      row.told += here.density > 0 ? 1 << k : 0;
+      row.owed += norm(fluid.left_over_force) > 0 ? 1 << k : 0;
       if (gradients)
         carried_by<CarriedGradientsRow>(gradients, i).fluid[k] = {
             volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};

@@ -14,6 +14,19 @@
 
 namespace demvof {
 
+/// The drag factor near the slip for which it was last evaluated,
+///
+///   beta(s) = beta_0 (1 + (n - 1) (s/s_0 - 1))       n: the exponent there (implicit_drag.hpp)
+///
+/// good to (n - 1)(2 - n)/2 (s/s_0 - 1)^2 where the drag goes like s^n.
+struct LocalDrag {
+  double factor = 0;    // beta_0, kg/s
+  double slip = 0;      // s_0, m/s; 0: not evaluated
+  double exponent = 1;  // n, -
+
+  double at(double s) const { return factor * (1 + (exponent - 1) * (s / slip - 1)); }
+};
+
 /// Of one fluid, as if the particle lay wholly in it, but for what it received.
 struct CarriedFluid {
   Vec3 velocity;             // u, m/s
@@ -27,6 +40,7 @@ struct CarriedFluid {
   Vec3 drag_impulse;           // lift and added mass included, N s
   double drag_factor_sum = 0;  // sum of beta over the evaluations, with the wetted share of each, kg/s
   double drag_exponent = 1;    // n at the start of this window (implicit_drag.hpp), -
+  LocalDrag drag;
 };
 
 /// Where the surface is, seen from the particle's centre.
@@ -50,12 +64,14 @@ struct CarriedRow {
   // s, without a fluid that there is: new since the last window began. The fluid's pressure has yet to act.
   double waited = 0;
   double known = 0;  // 1: it was there when a window began
+  double told = 0;   // of which fluids: 1 liquid, 2 gas, 3 both
+  double owed = 0;   // by which fluids there is a force left over; likewise
   CarriedSurface surface;
   CarriedFluid fluid[2];  // liquid, gas
 
   double share(int k) const { return k == 0 ? 1 - surface.dry : surface.dry; }
-  bool feels(int k) const { return fluid[k].density > 0 && share(k) > 0; }
-  bool waits() const { return fluid[0].density == 0 && fluid[1].density == 0; }
+  bool feels(int k) const { return (static_cast<int>(told) >> k & 1) && share(k) > 0; }
+  bool waits() const { return told == 0; }
 };
 
 /// Of one fluid, when a force needs its derivatives.

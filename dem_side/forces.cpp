@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
@@ -15,6 +16,9 @@ namespace {
 
 // Relative change of the slip over which the drag's slope is taken.
 constexpr double tangent_step = 1e-3;
+// Relative change of the slip within which its drag factor follows the slope: with n between 1 and 2 it is
+// good to 3e-6.
+constexpr double near_slip = 5e-3;
 
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
 // particle that touches nothing is zero or a last bit of its weight.
@@ -65,7 +69,8 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
   }
 }
 
-/// beta of a fluid all around it; at the window's first step the drag's exponent as well.
+/// beta of a fluid all around it, evaluated where the slip has changed; at the window's first step the drag's
+/// exponent is noted as well.
 template <class Drag>
 double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip) {
   const auto factor = [&](double speed, ClosureCount& count) {
@@ -73,11 +78,13 @@ double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double dia
                ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
                : law.factor(fluid, diameter, speed, count);
   };
+  LocalDrag& drag = fluid.drag;
+  if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) return drag.at(slip);
+  const bool first = fluid.drag_factor_sum == 0;
+  ClosureCount further;
   const double beta = factor(slip, drag_count_);
-  if (fluid.drag_factor_sum == 0) {
-    ClosureCount further;
-    fluid.drag_exponent = drag_exponent(beta, factor((1 + tangent_step) * slip, further), tangent_step);
-  }
+  drag = {beta, slip, drag_exponent(beta, factor((1 + tangent_step) * slip, further), tangent_step)};
+  if (first) fluid.drag_exponent = drag.exponent;
   return beta;
 }
 
@@ -205,8 +212,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt
     for (int k = 0; k < 2; ++k) {
       CarriedFluid& fluid = row.fluid[k];
-      steady += fluid.left_over_force;
-      sums.left_over += fluid.left_over_force;
+      if (static_cast<int>(row.owed) >> k & 1) {
+        steady += fluid.left_over_force;
+        sums.left_over += fluid.left_over_force;
+      }
       if (!row.feels(k)) continue;
       Part& part = parts[k];
       const double share = row.share(k);
