@@ -20,6 +20,7 @@
 #include "coupler/scene/plan_windows.hpp"
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
+#include "foam_side/divided_cells.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/find_walls.hpp"
 #include "foam_side/fluid_books.hpp"
@@ -341,6 +342,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
         "the file, and write a section fluid.refinement");
   if (paired) {
     require_mesh_fits(*grid, flow->mesh);
+    if (const std::string said = walls_inside_bulk_cells(flow->mesh, *grid); !said.empty())
+      scene.advice.push_back(said);
     require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));
   }
   if (flow->porosity && facts.inserts_particles && flow->p_rgh.needReference())
