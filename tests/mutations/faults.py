@@ -17,6 +17,7 @@ DROP = {"^pair.replacement$": ["foam_side", "dem_side", "demvof", "demvof_pair"]
 PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
+FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 HALF = {"^pair.half_submerged$": PAIR}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
@@ -161,6 +162,6 @@ FAULTS = [
      "dt * source.coefficient[cell] * (flow.U[cell] - source.reference[cell])", {**BED, **HALF}),
     ("foam_side/fluid_books.cpp", "inflow -= flux", "inflow += flux", BED),
     ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
-     "(eps - porosity.eps.primitiveField()) / (flow.clock", {**BED, **COMING}),
+     "(eps - porosity.eps.primitiveField()) / (flow.clock", FLOW),
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
 ]
