@@ -57,7 +57,7 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
       for (int k = 0; k < 2; ++k)  // told of one fluid only: all of it is there
         if (row.fluid[k].density == 0 && row.fluid[1 - k].density > 0) row.surface = {k == 0 ? 1.0 : 0.0, {}};
     }
-    row.waited = before.known > 0 ? 0 : before.waited;
+    row.waited = before.waited;
     row.known = 1;
     carried_by(rows, i) = row;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -206,7 +207,8 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       double beta = 0, added = 0;
       Vec3 slip, across, overdue;
     } parts[2];
-    const double late = half_step_ ? 0 : std::exchange(row.waited, 0.0) / step;
+    const double late = half_step_ ? 0 : std::min(1.0, row.waited / step);
+    row.waited -= late * step;
     FluidTorque::Grip grip;
     double beta = 0, added = 0;
     Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt

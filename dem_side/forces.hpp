@@ -14,10 +14,10 @@
 //                1929)
 //   F_history  = history.hpp, of the liquid or the only fluid; the present step's part as an added mass
 //   F_constant the case file's
-//   F_overdue  of a particle that came into being in a window and was told of no fluid before the next, in
-//   the
-//                first step of that: (F_pressure + F_stress + m_a (Du/Dt - g)) t_waited/dt; drag is not made
-//                up for
+//   F_overdue  of a particle that came into being in a window and was told of no fluid before the next: for
+//   as
+//                long again as it has waited F_pressure + F_stress + m_a (Du/Dt - g) once more; drag is not
+//                made up for
 //
 // and a torque (fluid_torque.hpp).
 //
