@@ -151,6 +151,34 @@ Books open_box(int steps_per_window) {
   return books;
 }
 
+/// What a loose pressure leaves of a window is not forgotten in the next.
+TEST(MovingPorosity, ComesToItsTargetHoweverLooselyThePressureIsSolved) {
+  Settings all = liquid_box(16);
+  const double window = 0.01;
+  all["first_step"] = std::to_string(window);
+  all["p_tolerance"] = "1e-1";
+  const auto flow = FoamCase("moving_porosity_loose", all).open(scene(true, true, false));
+  set_alpha(*flow, [](const vector&) { return 1.0; });
+  const auto eps_at = [&](double t) {
+    return cell_values(*flow, [t](const vector& x) { return along_x.eps(x.x(), t) * along_z.eps(x.z(), t); });
+  };
+  set_initial_porosity(*flow, eps_at(0));
+  double lag = 0;
+  for (int k = 1; k <= 6; ++k) {
+    begin_window(*flow, k * window);
+    flow->clock.limit = window;
+    move_solid(*flow, (k - 0.5) * window);
+    set_porosity_target(*flow, eps_at(k * window));
+    advance(*flow);
+    const scalarField missed(Foam::mag(flow->porosity->goal.field() - eps_at(k * window)));
+    EXPECT_LT(Foam::gMax(missed), 1e-14) << k;
+    lag = std::max(
+        lag, Foam::gMax(Foam::mag(flow->porosity->goal.field() - flow->porosity->eps.primitiveField())()));
+  }
+  EXPECT_GT(lag, 1e-9) << "and so loosely that it is one";
+  EXPECT_LT(lag, 1e-2);
+}
+
 TEST(MovingPorosity, DisplacesWhatItShould) {
   Record record(
       "moving_porosity", "A void fraction that moves through one liquid",
