@@ -33,18 +33,38 @@ def history(**columns):
     return "\n".join([",".join(columns), "# " + ",".join("-" for _ in columns), *rows]) + "\n"
 
 
+def frames(states):
+    """Texts of a series of particle files; states: time -> (positions, radii, velocities), m, m, m/s."""
+    def array(name, kind, values, components=1):
+        text = " ".join(" ".join(map(repr, row)) if components > 1 else repr(row) for row in values)
+        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">{text}</DataArray>'
+
+    files, index = {}, ""
+    for number, (time, (positions, radii, velocities)) in enumerate(states.items()):
+        name = f"particles_{number:06d}.vtp"
+        index += f'<DataSet timestep="{time!r}" file="{name}"/>'
+        files["particles/" + name] = (
+            '<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData>'
+            f'<Piece NumberOfPoints="{len(radii)}"><PointData>{array("id", "Int64", range(1, len(radii) + 1))}'
+            f'{array("radius", "Float64", radii)}{array("velocity", "Float64", velocities, 3)}</PointData>'
+            f'<Points>{array("position", "Float64", positions, 3)}</Points></Piece></PolyData></VTKFile>')
+    files["particles/particles.pvd"] = f'<VTKFile type="Collection"><Collection>{index}</Collection></VTKFile>'
+    return files
+
+
 class CaseChecks(unittest.TestCase):
-    def verdict(self, case, facts, table):
+    def verdict(self, case, facts, table, files):
         folder = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
-        (folder / "results.json").write_text(json.dumps(facts))
-        (folder / "history.csv").write_text(table)
+        for name, text in {"results.json": json.dumps(facts), "history.csv": table, **files}.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(text)
         done = subprocess.run([sys.executable, CASES / case / "check.py", folder], capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
-    def expect(self, case, facts, table, refused):
-        """refused: a word of the one line that must say NOT; empty: none may."""
-        code, printed = self.verdict(case, facts, table)
+    def expect(self, case, facts, table, refused, files=None):
+        """refused: a word of the one line that must say NOT; empty: none may. files: name in the run's folder -> text."""
+        code, printed = self.verdict(case, facts, table, files or {})
         lines = [line for line in printed.splitlines() if line.startswith("NOT")]
         self.assertEqual((code, len(lines)), (1, 1) if refused else (0, 0), printed)
         self.assertTrue(not refused or refused in lines[0], printed)
@@ -115,7 +135,7 @@ class CaseChecks(unittest.TestCase):
         self.expect(case, results(configuration=falling, conservation__exchange=1e-11), run(), "exchange")
         self.expect(case, results(configuration=falling, conservation__momentum=1e-11), run(), "momentum")
         self.expect(case, results(configuration=falling, conservation__liquid_volume=1e-8), run(), "liquid volume")
-        code, printed = self.verdict(case, good, run(time_scale=1.01))
+        code, printed = self.verdict(case, good, run(time_scale=1.01), {})
         self.assertEqual((code, printed.count("NOT")), (1, 2), printed)  # late at both heights
 
         injected = {"particles": {"script": "particles/in.injected"}, "coupling": {"phase_interchange": "replacement"}}
@@ -159,6 +179,32 @@ class CaseChecks(unittest.TestCase):
             for factor in (0.96, 1.04):
                 wrong = [e * (factor if at == place else 1) for at, e in enumerate(law)]
                 self.expect(case, results(), table(*wrong), f"{velocity} mm/s")
+
+    def test_floating_beads_dam_break(self):
+        volume, floor, liquid = math.pi / 6 * 8e-3**3, 0.256 * 0.016, 0.096 * 0.016 * 0.064
+        ratios = [(300, 600, 900)[n % 3] / 1221 for n in range(16)]
+
+        def depth(ratio):
+            """Root in [0, 1] of 2 x^3 - 3 x^2 + ratio: with x = 1/2 + sin(a), sin(3 a) = 2 ratio - 1."""
+            return 0.5 + math.sin(math.asin(2 * ratio - 1) / 3)
+
+        level = (liquid + volume * sum(ratios)) / floor
+
+        def at_rest(off=0.0, speed=0.0):
+            positions = [(0.01, 0.008, level + (0.5 - depth(ratio) - (off if n == 4 else 0)) * 8e-3)
+                         for n, ratio in enumerate(ratios)]
+            return frames({6.0: (positions, [4e-3] * 16, [(0.0, 0.0, speed)] * 16)})
+
+        def table(energy=(1, 1.0005, 0.5)):
+            return history(time=[0, 1, 6], mechanical_energy=energy, liquid_volume=[liquid] * 3)
+
+        case, good = "floating_beads_dam_break", results(particles={"lost": 0, "final": 16})
+        self.expect(case, good, table(), "", at_rest())
+        self.expect(case, good, table(), "600", at_rest(off=0.05))
+        self.expect(case, good, table(), "600", at_rest(off=-0.05))
+        self.expect(case, good, table(), "fastest", at_rest(speed=0.02))
+        self.expect(case, good, table((1, 1.002, 0.5)), "energy", at_rest())
+        self.expect(case, results(particles={"lost": 1, "final": 16}), table(), "lost", at_rest())
 
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
