@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "atom.h"
 #include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/base/sphere.hpp"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -46,6 +49,28 @@ std::string_view objection(std::string_view style) {
   return {};
 }
 
+// A sphere that 'create_atoms' makes is 1 m large until the script gives it a diameter; with such a one in a
+// small box LIGGGHTS's set-up writes where it must not.
+std::string larger_than_their_box(const LAMMPS_NS::LAMMPS& liggghts) {
+  const LAMMPS_NS::Atom& atom = *liggghts.atom;
+  const LAMMPS_NS::Domain& box = *liggghts.domain;
+  if (!atom.radius_flag || box.nonperiodic == 2) return {};  // a box that shrinks onto centres says nothing
+  double sum = 0, largest = 0;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    sum += sphere_volume(atom.radius[i]);
+    largest = std::max(largest, 2 * atom.radius[i]);
+  }
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, liggghts.world), "MPI_Allreduce");
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, liggghts.world), "MPI_Allreduce");
+  const double room =
+      (box.boxhi[0] - box.boxlo[0]) * (box.boxhi[1] - box.boxlo[1]) * (box.boxhi[2] - box.boxlo[2]);
+  if (sum <= room) return {};
+  return fmt::format(
+      "the particles' volume is {:.4g} m3, that of their box {:.4g} m3; the largest one has a diameter of "
+      "{:.6g} m. What create_atoms makes has 1 m until 'set ... diameter ... density ...' says otherwise",
+      sum, room, largest);
+}
+
 }  // namespace
 
 void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& script) {
@@ -68,6 +93,8 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
                     atom.atom_style));
   if (!liggghts.update->timestep_set) mistake("no timestep; add e.g. 'timestep 1e-5' (s)");
   if (liggghts.domain->triclinic) mistake("the box is skewed (triclinic); it must be rectangular");
+
+  if (const std::string text = larger_than_their_box(liggghts); !text.empty()) mistake(text);
 
   int integrators = 0, gravities = 0;
   for (int i = 0; i < liggghts.modify->nfix; ++i) {

@@ -47,6 +47,8 @@ endings = {
     "force_taken_away": (case, script + "fix hold all setforce 0 0 0\n", [], 2, ["fix hold setforce", "fix freeze"]),
     "steps_that_change": (case, script + "fix clock all dt/reset 1 1e-6 1e-4 1e-5\n", [], 2,
                           ["fix clock dt/reset", "run away from the fluid's"]),
+    "no_diameter": (case, script + "create_atoms 1 single 0.05 0.05 0.1 units box\n", [], 2,
+                    ["diameter of 1 m", "set ... diameter"]),
     "no_box": (case, "units si\natom_style granular\n", [], 2, ["no simulation box"]),
     "window_between": (case.replace("window: 1.0e-3", "window: 1.25e-3"), script, [], 2,
                        ["0.00125 s is not a whole number of DEM steps of 0.0001 s", "0.0012 or 0.0013"]),
