@@ -206,6 +206,34 @@ class CaseChecks(unittest.TestCase):
         self.expect(case, good, table((1, 1.002, 0.5)), "energy", at_rest())
         self.expect(case, results(particles={"lost": 1, "final": 16}), table(), "lost", at_rest())
 
+    def test_hopper_into_water(self):
+        volume, big, small = math.pi / 6 * 4e-3**3, 600, 1.0
+        # 600 beads evenly between 0 and 40 mm over the hopper's floor: what lies over each millimetre is known.
+        filled = [(0.01, 0.008, 0.36 + 0.04 * (n + 0.5) / big) for n in range(big)]
+        bulk = 2500 * big * volume / 0.04 / (0.096 * 0.016)
+        law = 1.03 * bulk * math.sqrt(9.81) * 0.016 * (0.02 - 1.4 * 4e-3) ** 1.5
+        rate = law / (2500 * volume)  # beads per second
+        terminal = 0.2674
+
+        def run(flow=1.0, speed=1.0):
+            def state(fallen, sinking=0.0):
+                height = [(0.01, 0.008, 0.1)] * fallen + filled[fallen:] + [(0.012, 0.008, 0.02)]
+                return height, [2e-3] * big + [1e-3], [(0.0, 0.0, 0.0)] * big + [(0.0, 0.0, -sinking)]
+
+            return frames({0.0: state(0), 0.1: state(10), 0.2: state(10, speed * terminal),
+                           0.3: state(10 + round(0.2 * rate * flow)), 1.2: state(500)})
+
+        def table(error=0.0):
+            level = 0.16 + (500 * volume + math.pi / 6 * 2e-3**3) / (0.096 * 0.016)
+            return history(time=[0, 1.2], mean_level=[0.16, level + error])
+
+        case = "hopper_into_water"
+        self.expect(case, results(), table(), "", run())
+        self.expect(case, results(), table(), "mass flow", run(flow=0.7))
+        self.expect(case, results(), table(), "mass flow", run(flow=1.3))
+        self.expect(case, results(), table(), "terminal", run(speed=0.95))
+        self.expect(case, results(), table(error=-1.2e-3), "level", run())
+
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
                               text=True, check=False)
