@@ -234,6 +234,28 @@ class CaseChecks(unittest.TestCase):
         self.expect(case, results(), table(), "terminal", run(speed=0.95))
         self.expect(case, results(), table(error=-1.2e-3), "level", run())
 
+    def test_gas_slurry_column(self):
+        beads, area, liquid = 700 * math.pi / 6 * 4e-3**3, 0.096 * 0.016, 2.7e-4
+        air = 0.384 * area - liquid - beads
+        contact = 0.03  # N, and 0.002 N of rate of momentum
+        pressure = (9.81 * (1000 * liquid + 1200 * beads + 1.2 * air) - contact + 0.002) / area - 1.2 * 9.81 * 0.384
+
+        def tables(factor):
+            times = [0.01 * n for n in range(401)]
+            return {f"fluid/postProcessing/{name}/0/values.dat":
+                    "".join(f"{t:g} " + " ".join(f"{value:.9g}" for value in values) + "\n" for t in times)
+                    for name, values in (("floor", [factor * pressure]), ("sparger", [factor * pressure]),
+                                         ("taps", [1300.0, 600.0]))}
+
+        case, table = "gas_slurry_column", history(
+            time=[0, 2, 4], liquid_volume=[liquid] * 3, fluid_momentum_z=[0, 0.003, 0.005],
+            particle_momentum_z=[0, 0, 0.002], pending_momentum_z=[0, 0, 0.001])
+        books = {"momentum": {"impulses": {"contacts": [0, 0, 4 * contact]}}}
+        self.expect(case, results(**books), table, "", tables(1.0))
+        self.expect(case, results(**books), table, "force of floor", tables(0.985))
+        self.expect(case, results(**books), table, "force of floor", tables(1.015))
+        self.expect(case, results(**books, conservation__liquid_volume=1e-4), table, "liquid volume", tables(1.0))
+
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
                               text=True, check=False)
