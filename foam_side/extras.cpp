@@ -55,7 +55,6 @@ void require_known_advection(const Flow& flow, const AdvectionControls& alpha) {
   if (alpha.scheme != "MULES" && alpha.scheme != "isoAdvection")
     refuse("advectionScheme is " + alpha.scheme + ", known: MULES, isoAdvection");
   if (!alpha.geometric) return;
-  if (alpha.semi_implicit) refuse("advectionScheme isoAdvection is explicit: MULESCorr only no");
   if (extras(flow).motion != MeshMotion::never)
     refuse("advectionScheme isoAdvection: not on a mesh that moves; MULES is");
   for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())
@@ -136,7 +135,7 @@ AdvectionControls::AdvectionControls(const Flow& flow) {
   geometric = scheme == "isoAdvection";
   correctors = geometric ? 1 : alpha.get<label>("nAlphaCorr");
   sub_cycles = alpha.get<label>("nAlphaSubCycles");
-  semi_implicit = alpha.lookupOrDefault("MULESCorr", false);
+  semi_implicit = !geometric && alpha.lookupOrDefault("MULESCorr", false);  // the cuts have no implicit part
   reuse = semi_implicit && alpha.lookupOrDefault("alphaApplyPrevCorr", false);
   isotropic = alpha.lookupOrDefault<scalar>("icAlpha", 0);
   shear = alpha.lookupOrDefault<scalar>("scAlpha", 0);

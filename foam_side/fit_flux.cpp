@@ -36,6 +36,8 @@ Foam::dictionary solver_for_rest(const Flow& flow, const scalarField& missed) {
 }
 
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate) {
+  // No corrector (nNonOrthogonalCorrectors -1): the flow is a given one, whose case has no solver for this.
+  if (flow.pimple.nNonOrthCorr() < 0) return;
   fit_flux(flow, flow.phi, mobility, wanted_rate, flux_solver(flow, wanted_rate == nullptr));
 }
 
