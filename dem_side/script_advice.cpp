@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the text of a script tells. LIGGGHTS names what it does not like, not the line: two things that stand
-// in many scripts have a reason that a user cannot guess: ranks that the script sets, and names that another
-// coupling gives to its fixes.
+// What the text of a script tells. LIGGGHTS names what it does not like, not the line: three things that
+// stand in many scripts have a reason that a user cannot guess: ranks that the script sets, names that
+// another coupling gives to its fixes, and styles of another LIGGGHTS than the one that is linked.
 
 #include "dem_side/script_advice.hpp"
 
@@ -80,6 +80,38 @@ std::string on_unknown_fixes(const std::filesystem::path& script) {
   return {};
 }
 
+/// The last line of a command of which the linked LIGGGHTS has not that style.
+std::string on_style(const std::filesystem::path& script, const std::string& command,
+                     std::string (*instead)(const std::string&)) {
+  std::string advice;
+  for (const Line& line : commands(script))
+    if (line.words[0] == command && line.words.size() > 1)
+      advice = fmt::format("{}: the LIGGGHTS that demvof is linked with has no {} '{}'; {}",
+                           quoted(script, line), command, line.words[1], instead(line.words[1]));
+  return advice;
+}
+
+/// gran/hertz/history of LIGGGHTS 2 and LAMMPS: the model's name and whether it remembers the tangential
+/// force.
+std::string pair_style_instead(const std::string& style) {
+  std::smatch old;
+  if (!std::regex_match(style, old, std::regex("gran/(hooke|hertz)(/history)?(/\\w+)*")))
+    return "spheres in contact: 'pair_style gran model hertz tangential history', materials in fix "
+           "property/global";
+  return fmt::format(
+      "it is of a version before 3: write 'pair_style gran model {} tangential {}', 'pair_coeff * *', and "
+      "the "
+      "materials (youngsModulus, poissonsRatio, coefficientRestitution, coefficientFriction) in fix "
+      "property/global; walls (fix wall/gran) by the same words",
+      old[1].str(), old[2].matched ? "history" : "no_history");
+}
+
+std::string atom_style_instead(const std::string& style) {
+  const bool shapes = style == "superquadric" || style == "convexhull";
+  return fmt::format("{}demvof couples spheres: write 'atom_style granular'",
+                     shapes ? "that shape is left out when it is built, as Debian's package is; " : "");
+}
+
 }  // namespace
 
 bool fix_has_word(const std::filesystem::path& script, const std::string& fix, const std::string& word) {
@@ -93,6 +125,10 @@ bool fix_has_word(const std::filesystem::path& script, const std::string& fix, c
 std::string advice_on(const std::string& error, const std::filesystem::path& script) {
   if (error.find("processors") != std::string::npos) return on_ranks(script);
   if (error.find("Fix ID") != std::string::npos) return on_unknown_fixes(script);
+  if (error.find("Invalid pair style") != std::string::npos)
+    return on_style(script, "pair_style", pair_style_instead);
+  if (error.find("Invalid atom style") != std::string::npos)
+    return on_style(script, "atom_style", atom_style_instead);
   return {};
 }
 

@@ -47,6 +47,10 @@ def with_processors():
     return replaced(box("ranks").write(), "particles/in.particles", "newton off", "newton off\nprocessors 2 2 1")
 
 
+def with_style(name, old, new):
+    return replaced(box(name).write(), "particles/in.particles", old, new)
+
+
 def with_time_scheme():
     return replaced(box("time_scheme").write(), "fluid/system/fvSchemes", "Euler", "CrankNicolson 0.9")
 
@@ -91,6 +95,12 @@ TRIALS = {
                             ["in.particles:", "'processors 2 2 1'", "particles.ranks"]),
     "name_of_another_coupling": (lambda: box("dragforce", script_tail="compute d all reduce sum f_dragforce[1]\n").write(), 2,
                                  ["in.particles:", "f_dragforce[1]", "CFDEMcoupling", "'forces'"]),
+    "pair_style_of_an_older_version": (lambda: with_style("pair_style", "gran model hooke/stiffness tangential history",
+                                                          "gran/hertz/history 1e5 NULL 500 NULL 0.5 1"), 2,
+                                       ["in.particles:", "has no pair_style 'gran/hertz/history'",
+                                        "'pair_style gran model hertz tangential history'"]),
+    "atom_style_that_is_not_built": (lambda: with_style("atom_style", "atom_style granular", "atom_style superquadric"), 2,
+                                     ["in.particles:2: 'atom_style superquadric'", "shape is left out", "'atom_style granular'"]),
     "wall_that_moves_on_one_side": (lambda: box("piston", script_tail=PISTON, extra_files={"particles/p.stl": STL}).write(), 2,
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
