@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -22,6 +23,20 @@ COARSER = {
 
 class Failed(Exception):
     """A tutorial that could not be made ready, or a program that did not do what was asked."""
+
+
+def bounded(command, folder, log, environment, longest):
+    """Exit code of a program, which gets `longest` seconds; it and what it started end then."""
+    with open(log, "w", encoding="utf-8") as out:
+        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.STDOUT, env=environment, start_new_session=True)
+        try:
+            return process.wait(longest)
+        except subprocess.TimeoutExpired:
+            raise Failed(f"{pathlib.Path(command[0]).name} takes more than {longest} s") from None
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGTERM)  # not SIGKILL: demvof ends what its mpirun started
+                process.wait()
 
 
 def tutorials():
@@ -67,16 +82,16 @@ def coarsen(folder, factor):
     file.write_text(re.sub(r"(hex\s*\([^)]*\)\s*(?:\w+\s*)?)\(\s*(\d+\s+\d+\s+\d+)\s*\)", fewer, file.read_text()))
 
 
-def prepare(name, source, folder):
+def prepare(name, source, folder, longest):
     """The tutorial as its own Allrun makes it ready, on one rank; returns its case folder."""
     target = folder / "prepared"
     copy(source, target)
     if name in COARSER:
         coarsen(target, COARSER[name])
-    process = subprocess.run(["./Allrun"], cwd=target, env=environment(folder), capture_output=True, text=True, check=False)
-    (folder / "Allrun.log").write_text(process.stdout + process.stderr)
-    if process.returncode != 0:
-        raise Failed("its Allrun: " + (process.stderr.strip().splitlines() or ["exit code"])[0])
+    log = folder / "Allrun.log"
+    if bounded(["./Allrun"], target, log, environment(folder), longest) != 0:
+        said = [line for line in log.read_text(errors="replace").splitlines() if " failed in " in line or "error" in line.lower()]
+        raise Failed("its Allrun: " + (said or ["exit code"])[0])
     case = target / "damBreakFine" if name.endswith("/damBreakFine") else target
     if not list((case / "constant" / "polyMesh").glob("faces*")):
         raise Failed("its Allrun makes no mesh")
