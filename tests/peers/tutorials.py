@@ -13,11 +13,16 @@ EXAMPLES = pathlib.Path("/usr/share/doc/openfoam-examples/examples")
 SOLVERS = ("interFoam", "interIsoFoam")
 STEPS = 20
 
-# A mesh that takes a workstation hours: blockMesh with so many times fewer cells each way, and where that is not
-# enough, without the refinement that follows.
+# Meshes that take a machine of two cores too long: blockMesh with so many times fewer cells each way.
 COARSER = {
     "interFoam/RAS/DTCHull": 2, "interFoam/RAS/DTCHullMoving": 2, "interFoam/RAS/motorBike": 2,
     "interFoam/RAS/mixerVesselAMI": 2, "interFoam/LES/nozzleFlow2D": 2,
+    "interFoam/laminar/vofToLagrangian/eulerianInjection": 4, "interFoam/laminar/waves/irregularMultiDirection": 2,
+    "interFoam/laminar/waves/mangroveInteraction": 4, "interFoam/laminar/waves/solitary": 2,
+    "interFoam/laminar/waves/solitaryGrimshaw": 4, "interFoam/laminar/waves/solitaryMcCowan": 4,
+    "interFoam/laminar/waves/waveMakerFlap": 2, "interFoam/laminar/waves/waveMakerMultiPaddleFlap": 4,
+    "interFoam/laminar/waves/waveMakerMultiPaddlePiston": 4, "interFoam/laminar/waves/waveMakerPiston": 2,
+    "interIsoFoam/waveExampleStreamFunction": 4,
 }
 
 
