@@ -20,6 +20,7 @@
 #include "domain.h"
 #include "fix_external.h"
 #include "fix_gravity.h"
+#include "fix_insert_stream.h"
 #include "fix_mesh_surface.h"
 #include "fix_property_atom.h"
 #include "input.h"
@@ -101,7 +102,8 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
   });
   require_coupled_scene(*liggghts_, script.string());
 
-  for_each_fix(*liggghts_, [&](const LAMMPS_NS::Fix& fix) {
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    if (!stream_) stream_ = dynamic_cast<LAMMPS_NS::FixInsertStream*>(&fix);
     const std::string_view style = fix.style;
     if (style == "nve/sphere" || style == "nve") integrated_ |= fix.groupbit;
     if (style == "nve/sphere") turned_ |= fix.groupbit;
@@ -244,6 +246,17 @@ bool Dem::inserts_particles() const {
     inserts |= is_insertion(fix) && fix.next_reneighbor > liggghts_->update->ntimestep;
   });
   return inserts;
+}
+
+Dem::Stream Dem::stream(int i) const {
+  if (!stream_) return {};
+  // LIGGGHTS's row: place (0 to 2), step of insertion (3; 0: not of a stream) and of release (4), velocity
+  // before (5 to 7) and after it (8 to 10)
+  const double* row = stream_->fix_prop_release()->array_atom[i];
+  const auto step = static_cast<double>(liggghts_->update->ntimestep);
+  if (row[3] == 0 || step > row[4] + 0.5) return {};
+  if (step < row[4] - 0.5) return {true, false, {}};
+  return {false, true, vec3(row + 8) - vec3(row + 5)};
 }
 
 std::vector<std::string> Dem::moved_surfaces() const {

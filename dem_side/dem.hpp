@@ -15,8 +15,9 @@
 #include "dem_side/particle_arrays.hpp"
 
 namespace LAMMPS_NS {
+class FixInsertStream;
 class LAMMPS;
-}
+}  // namespace LAMMPS_NS
 
 namespace demvof {
 
@@ -82,6 +83,15 @@ class Dem {
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
   /// that are frozen, moved by prescription or not integrated at all.
   bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
+  /// An insertion that moves local particle i at the velocity that it prescribes (fix insert/stream, until
+  /// the particle has left the insertion's volume): it takes all force from it. With the last step it gives
+  /// it a velocity, and forces move it from then on.
+  struct Stream {
+    bool carries = false;   // i in this step and in the next one
+    bool releases = false;  // i: this step is the last
+    Vec3 change;            // of the velocity by that, m/s
+  };
+  Stream stream(int i) const;
   /// True when it turns such a particle by the torque on it.
   bool turns(int mask) const { return (mask & turned_) && !(mask & frozen_); }
   /// True when fix gravity acts on a particle with this mask.
@@ -126,6 +136,7 @@ class Dem {
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
   bool continued_;
+  LAMMPS_NS::FixInsertStream* stream_ = nullptr;                // the first of the script; all share its rows
   int integrated_ = 0, turned_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
 };
 

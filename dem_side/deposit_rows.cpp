@@ -29,13 +29,13 @@ std::function<BulkParticles(int)> FluidForces::contributions(int k) const {
     const double radius = particles.radius[i], mass = particles.mass[i];
     const double beta = mean_drag_factor(row, k), tangent = mean_drag_tangent(row, k);
     const double other = mean_drag_tangent(row, 1 - k);
-    const double held = held_share(row, particles.mask[i]);
+    const double held = held_share(row, i);
     const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
     const double response = drag_response(tangent, mass, window_, held, added, other);
     BulkParticles here;
     here.solid_volume = row.share(k) * sphere_volume(radius);
     here.solid_flux = here.solid_volume * (window_ > 0 ? row.path / window_ : vec3(particles.velocity[i]));
-    if (dem_.moves(particles.mask[i])) {
+    if (moved_by_forces(i)) {
       const double inertia = mass + added;
       const double theta = inertial_share(tangent + other, inertia, window_);
       // Added mass: grad p and rho Du/Dt push alike.
@@ -67,9 +67,8 @@ std::function<BulkParticles(int)> FluidForces::expected_contributions(int k) con
     const CarriedRow& row = carried_by(rows, i);
     const double radius = particles.radius[i];
     const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
-    const double secant =
-        drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
-                      held_share(row, particles.mask[i]), added, mean_drag_factor(row, 1 - k));
+    const double secant = drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
+                                        held_share(row, i), added, mean_drag_factor(row, 1 - k));
     expected.drag_impulse = {};
     // u_ref is to be this one everywhere, and nobody counts as held by it.
     expected.drag_tangent = expected.free_response = expected.following_response = 0;
@@ -84,7 +83,7 @@ std::function<Support(int)> FluidForces::support(int k) const {
     const CarriedRow& row = carried_by(rows, i);
     const CarriedFluid& fluid = row.fluid[k];
     const double share = row.share(k);
-    const bool moves = dem_.moves(particles.mask[i]);
+    const bool moves = moved_by_forces(i);
     Vec3 others = fluid.pressure_force;
     if (gradients) others += carried_by<CarriedGradientsRow>(gradients, i).fluid[k].stress_force;
     if (moves) others += parameters_.constant;

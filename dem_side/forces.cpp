@@ -109,9 +109,13 @@ double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
   return row.fluid[k].drag_exponent * mean_drag_factor(row, k);
 }
 
-double FluidForces::held_share(const CarriedRow& row, int mask) const {
+bool FluidForces::moved_by_forces(int i) const {
+  return dem_.moves(dem_.particles().mask[i]) && !dem_.stream(i).carries;
+}
+
+double FluidForces::held_share(const CarriedRow& row, int i) const {
   const CarriedContacts& contacts = row.contacts;
-  return dem_.moves(mask) && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
+  return moved_by_forces(i) && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
 }
 
 void FluidForces::first_half_step() {
@@ -177,7 +181,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     CarriedRow& row = carried_by(rows, i);
     const double mass = particles.mass[i], radius = particles.radius[i];
     const Vec3 velocity = vec3(particles.velocity[i]);
-    const bool moves = dem_.moves(particles.mask[i]);
+    const Dem::Stream stream = dem_.stream(i);
+    const bool released = stream.releases && !half_step_;  // set-up is after the release
+    const bool moves = dem_.moves(particles.mask[i]) && !stream.carries && !released;
+    if (released) sums.held -= mass / step * stream.change;
     const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
     const Vec3 contact = vec3(particles.force[i]) - weight;
     row.contacts.touching += touches(contact, weight);

@@ -72,8 +72,8 @@ struct FluidsAtParticles {
 /// Impulses of one window on this rank's particles, N s.
 struct WindowImpulses {
   Vec3 drag, pressure, left_over, stress;  // on all particles; drag with lift and added mass
-  Vec3 held;                               // the part of these that went to particles which no force moves
-  Vec3 contact, gravity, constant;         // on the particles that forces move
+  Vec3 held;                        // of these what went to particles that no force moves, and Dem::Stream
+  Vec3 contact, gravity, constant;  // on the particles that forces move
 };
 
 class FluidForces {
@@ -151,7 +151,8 @@ class FluidForces {
                  const Vec3& spin, const Vec3& slip);
   static double mean_drag_factor(const CarriedRow& row, int k);
   static double mean_drag_tangent(const CarriedRow& row, int k);
-  double held_share(const CarriedRow& row, int mask) const;               // of the window, in contact
+  bool moved_by_forces(int i) const;                                      // local particle i, at present
+  double held_share(const CarriedRow& row, int i) const;                  // of the window, in contact
   double added_mass(const CarriedRow& row, int k, double radius) const {  // kg
     return parameters_.added_mass * row.share(k) * row.fluid[k].density * sphere_volume(radius);
   }

@@ -44,9 +44,10 @@ Vec3 half_step_momentum(const Dem& dem) {
   const ParticleArrays particles = dem.particles();
   Vec3 momentum;
   for (int i = 0; i < particles.count; ++i)
-    if (dem.moves(particles.mask[i]))
-      momentum +=
-          particles.mass[i] * vec3(particles.velocity[i]) + 0.5 * dem.time_step() * vec3(particles.force[i]);
+    if (dem.moves(particles.mask[i])) {
+      momentum += particles.mass[i] * vec3(particles.velocity[i]);
+      if (!dem.stream(i).carries) momentum += 0.5 * dem.time_step() * vec3(particles.force[i]);
+    }
   reduce(&momentum.x, sizeof(Vec3), MPI_SUM, dem.world());
   return momentum;
 }

@@ -264,6 +264,30 @@ def out_with_the_stream():
                        run.number("conservation.solid_volume"), 6e-14)
 
 
+# ---- from a face
+
+def stream_from_a_face():
+    """LIGGGHTS's fix insert/stream moves its beads at one velocity until they have left the face's volume; fluid and weight
+    act from then on. They are put in before the coupled run, so that every window is judged."""
+    edge, speed = 0.03, 1.0
+    case = BoxCase(scratch("boundaries/stream"), upper=(edge, edge, 2 * edge), fine=(4, 4, 8), bulk=(4, 4, 8), end_time=0.03,
+                   window=1e-3, dem_step=1e-4)
+    case.sides["z+"] = Open(alpha=1)
+    case.particles.append(Particle((edge / 2, edge / 2, 5e-3), 2e-3, 1000))
+    case.extra_files["particles/face.stl"] = rectangle("face", (0.01, 0.01, 0.04), (0.02, 0.01, 0.04), (0.02, 0.02, 0.04),
+                                                       (0.01, 0.02, 0.04))
+    case.script_tail = ("fix template all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 5e-4\n"
+                        "fix mix all particledistribution/discrete 32452843 1 template 1.0\n"
+                        "fix face all mesh/surface file face.stl type 1\n"
+                        "fix stream all insert/stream seed 32452867 distributiontemplate mix nparticles 10 particlerate 1000 "
+                        f"vel constant 0 0 -{speed} overlapcheck yes insertion_face face extrude_length 0.01\nrun 1\n")
+    run = case.run(DEMVOF)
+    velocity = particle_states(run.folder)["velocity"][1:, 2]
+    RECORD.at_least("stream from a face: beads that were let go, and slowed down", int((velocity > -0.9 * speed).sum()), 5)
+    RECORD.at_most("stream from a face: exchange error", run.number("conservation.exchange"), 1.4e-14)
+    RECORD.at_most("stream from a face: momentum of everything", run.number("conservation.momentum"), 7e-15)
+
+
 # ---- no room
 
 def no_room_for_the_fluid():
@@ -283,7 +307,7 @@ def no_room_for_the_fluid():
 
 
 TESTS = [periodic, falling_along_a_period, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream,
-         no_room_for_the_fluid]
+         stream_from_a_face, no_room_for_the_fluid]
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()
