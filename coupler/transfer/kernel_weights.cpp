@@ -37,10 +37,12 @@ class Entries {
   /// share(a, b, c): of the cell {x[a], y[b], z[c]}.
   template <class Share>
   void add(const std::vector<int>& x, const std::vector<int>& y, const std::vector<int>& z, Share&& share) {
-    std::size_t entry = weights_.slot.size();
-    const std::size_t entries = x.size() * y.size() * z.size();
-    weights_.slot.resize(entry + entries);
-    weights_.weight.resize(entry + entries);
+    std::size_t entry = weights_.first.back();
+    const std::size_t end = entry + x.size() * y.size() * z.size();
+    if (end > weights_.slot.size()) {  // fills what it adds with zeros: seldom, and much at a time
+      weights_.slot.resize(end + end / 2);
+      weights_.weight.resize(end + end / 2);
+    }
     for (std::size_t c = 0; c < z.size(); ++c)
       for (std::size_t b = 0; b < y.size(); ++b) {
         const std::size_t row = block_.place({0, y[b], z[c]});
@@ -53,6 +55,8 @@ class Entries {
     weights_.first.push_back(static_cast<int>(entry));
   }
   void finish() {
+    weights_.slot.resize(weights_.first.back());
+    weights_.weight.resize(weights_.first.back());
     weights_.cells = block_.list_marked();
     for (int& slot : weights_.slot) slot = block_.slot(slot);
   }
@@ -102,11 +106,8 @@ KernelWeights kernel_weights(const BulkGrid& grid, const AveragingParameters& av
                              KernelWeights storage) {
   assert(radii.size() == positions.size());
   KernelWeights weights = std::move(storage);
-  weights.cells.clear();
-  weights.slot.clear();
-  weights.weight.clear();
   weights.first.assign(1, 0);
-  if (positions.empty()) return weights;
+  if (positions.empty()) return {{}, {0}, {}, {}};
   if (averaging.kernel == Kernel::volume)
     add_spheres(grid, positions, radii, weights);
   else
