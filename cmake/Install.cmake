@@ -4,7 +4,7 @@ What `cmake --install` puts below a prefix, and the Debian package that cpack ma
 finds its programs beside itself and its Python parts in ../share/demvof.
 
   bin                   demvof, demvof_pair, foam_side, dem_side
-  share/demvof          Python parts of `demvof report` and `demvof study`, JSON Schema of the case file
+  share/demvof          Python parts of `demvof new`, `report` and `study`, JSON Schema of the case file
   share/demvof/cases    the cases (component "cases": left out by cmake --install build/release --component programs)
   share/doc/demvof      documentation, licence
 ]]
@@ -17,9 +17,9 @@ foreach(_program demvof demvof_pair foam_side dem_side)
     install(TARGETS ${_program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()
-install(FILES coupler/cli/report.py coupler/cli/study.py docs/case_file.schema.json DESTINATION ${_share}
+install(FILES coupler/cli/new.py coupler/cli/report.py coupler/cli/study.py docs/case_file.schema.json DESTINATION ${_share}
         COMPONENT programs)
-install(DIRECTORY coupler/cli/reporting coupler/cli/studying DESTINATION ${_share} COMPONENT programs
+install(DIRECTORY coupler/cli/creating coupler/cli/reporting coupler/cli/studying DESTINATION ${_share} COMPONENT programs
         FILES_MATCHING PATTERN "*.py")
 install(FILES README.md LICENSE DESTINATION ${_doc} COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${_doc} COMPONENT programs PATTERN "records" EXCLUDE)

@@ -31,7 +31,13 @@ struct StudyOptions {
   bool no_runs = false;
 };
 
+struct NewOptions {
+  std::string name;              // the folder that is made
+  std::string fluid, particles;  // interFoam case, LIGGGHTS script
+};
+
 // The subcommands. Each returns the exit code; InputError is code 2, any other exception code 3.
+int new_command(const NewOptions& options);
 int prepare_command(const CaseOptions& options);
 int run_command(CaseOptions options, const RunOptions& run);
 int check_command(const CaseOptions& options);

@@ -34,6 +34,7 @@ class CommandLine {
           throw CLI::Success();
         },
         "Print the versions of demvof and of what it is built from");
+    add_new();
     add_check();
     add_prepare();
     add_run();
@@ -95,6 +96,17 @@ class CommandLine {
     command->add_flag("--force", case_.force, "Replace what an earlier run left in DIR");
   }
 
+  void add_new() {
+    CLI::App* command = add("new", "write a case from an interFoam case and a LIGGGHTS script", new_manual,
+                            [this] { return new_command(new_); });
+    command->add_option("NAME", new_.name, "Folder of the new case")->required()->type_name("");
+    command->add_option("--fluid", new_.fluid, "The interFoam case; it stays as it is")
+        ->required()
+        ->type_name("CASE");
+    command->add_option("--particles", new_.particles, "The LIGGGHTS script; it stays as it is")
+        ->required()
+        ->type_name("SCRIPT");
+  }
   void add_check() {
     add_case(add("check", "check a case on both sides without running it", check_manual,
                  [this] { return check_command(case_); }));
@@ -158,6 +170,7 @@ class CommandLine {
   RunOptions run_;
   std::vector<std::string> folders_;
   StudyOptions study_;
+  NewOptions new_;
   std::function<int()> action_;
 };
 

@@ -52,9 +52,41 @@ EXIT STATUS
     4   one side lost the other
 
 EXAMPLES
+    demvof new tank --fluid damBreak --particles in.beads
     demvof check case.yaml
     demvof run case.yaml --out runs/a --set coupling.window=1e-4
     demvof report runs/a
+)";
+
+const char* const new_manual = R"(DESCRIPTION
+    Makes the folder NAME with a commented case.yaml, a copy of the interFoam case and one of the script with the
+    files that it names, and checks the case as `demvof check` does. Each number in case.yaml is a proposal,
+    with its reason beside it:
+
+    bulk_grid       the mesh's box, in cells of 3 diameters of the largest particle
+    window          no longer than the fluid's step may be at the start, and than a tenth of the time in which
+                    something that fell through the box crosses a bulk cell; whole steps of the script
+    forces          drag, of a law that knows the bed where there is one; the pressure gradient; added mass
+                    where particles are lighter than the liquid
+    end_time, interval   controlDict's endTime and writeInterval, in whole windows
+    prepare         the commands of the case's Allrun that make mesh and fields, or what its dictionaries ask for
+
+    In the script's copy the last `run` is taken out (the coupled run starts where the script ends), and
+    `processors`, `fix couple/cfd` and `fix buoyancy`, which the coupling replaces; it says each line.
+    It runs the script and the commands of the case: docs/security.md for cases of strangers.
+
+FILES
+    NAME/case.yaml      the case file
+    NAME/fluid          constant, system and 0.orig (or 0) of the interFoam case
+    NAME/particles      the script and its files
+
+EXIT STATUS
+    0 the new case is ready to run, 2 it is written but something is left to do (it says what), or the input
+    is wrong, 3 a program failed, 4 one side lost the other
+
+EXAMPLES
+    demvof new tank --fluid $FOAM_RUN/damBreak --particles in.beads
+    demvof run tank/case.yaml
 )";
 
 const char* const check_manual = R"(DESCRIPTION

@@ -18,6 +18,7 @@ class ManualPage : public CLI::Formatter {
 
 // The sections behind the options.
 extern const char* const main_manual;
+extern const char* const new_manual;
 extern const char* const check_manual;
 extern const char* const prepare_manual;
 extern const char* const run_manual;
