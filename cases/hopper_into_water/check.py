@@ -58,7 +58,7 @@ def main():
         flow = (counts[1] - counts[0]) * VOLUME * DENSITY / (TO - FROM) if len(counts) == 2 else None
         bulk = bulk_density({name: start[name][hopper] for name in ("position", "radius")})
         law = 1.03 * bulk * math.sqrt(GRAVITY) * LENGTH * (SLOT - 1.4 * DIAMETER) ** 1.5
-        checks.near("mass flow from the hopper, Beverloo", flow, law, 0.25, "kg/s")
+        checks.near("mass flow from the hopper, Beverloo", flow, law, 0.3, "kg/s")
         checks.note("", f"bulk density {bulk:.0f} kg/m3; {counts} beads below the floor at {FROM} and {TO} s")
     state = beads(run, end)
     if state:

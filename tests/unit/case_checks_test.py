@@ -229,8 +229,8 @@ class CaseChecks(unittest.TestCase):
 
         case = "hopper_into_water"
         self.expect(case, results(), table(), "", run())
-        self.expect(case, results(), table(), "mass flow", run(flow=0.7))
-        self.expect(case, results(), table(), "mass flow", run(flow=1.3))
+        self.expect(case, results(), table(), "mass flow", run(flow=0.65))
+        self.expect(case, results(), table(), "mass flow", run(flow=1.35))
         self.expect(case, results(), table(), "terminal", run(speed=0.95))
         self.expect(case, results(), table(error=-1.2e-3), "level", run())
 
