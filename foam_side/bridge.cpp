@@ -10,6 +10,7 @@
 #include "coupler/base/mpi_check.hpp"
 #include "foam_side/pressure_gradient.hpp"
 #include "foam_side/vectors.hpp"
+#include "foam_side/window_means.hpp"
 
 namespace demvof {
 namespace {
@@ -34,6 +35,8 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
     : flow_(flow),
       owes_pressure_(flow.porosity && parameters.forces.pressure_gradient),
       tells_jump_(parameters.forces.capillary),
+      of_order_two_(parameters.coupling.order == 2),
+      accelerates_(need_acceleration(parameters.forces)),
       world_(world),
       window_(parameters.coupling.window),
       cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
@@ -41,8 +44,9 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
       fluid_to_bulk_(flow, cut_, surface_, parameters.forces, parameters.coupling.sharing),
       particles_to_fine_(flow, cut_, surface_, parameters.coupling),
       left_over_(surface_.fluids()),
-      seen_(surface_.fluids(), SeenFluid({parameters.coupling.schedule, parameters.coupling.exchange,
-                                          parameters.coupling.window, flow.porosity != nullptr})),
+      seen_(surface_.fluids(),
+            SeenFluid({parameters.coupling.schedule, parameters.coupling.exchange, parameters.coupling.window,
+                       flow.porosity != nullptr, parameters.coupling.order, parameters.forces.added_mass})),
       owed_pressure_(surface_.fluids()),
       shift_(surface_.fluids()) {}
 
@@ -63,7 +67,7 @@ void Bridge::take(std::vector<CellValues<BulkParticles>> particles) {
       particles, [](const auto& fluid) -> const auto& { return fluid.cells; }));
   std::vector<ParticlesToFine::InFluid> taken;
   for (std::size_t k = 0; k < particles.size(); ++k)
-    taken.push_back({std::move(particles[k]), shift_[k], {}});
+    taken.push_back({std::move(particles[k]), shift_[k], seen_[k].ahead(), {}});
   particles_to_fine_.take(std::move(taken));
 }
 
@@ -90,6 +94,7 @@ bool Bridge::owe(const Vec3& position, const Vec3& impulse) {
 }
 
 void Bridge::collect_pressure() {
+  if (of_order_two_) add_to_window_means(flow_, tells_jump_ || !flow_.porosity, accelerates_);
   if (!flow_.porosity) return;
   const Foam::vectorField gradient = pressure_gradient(flow_, tells_jump_);
   const auto left = particles_to_fine_.left_to_particles(gradient);
@@ -157,7 +162,7 @@ WindowChange Bridge::change(double largest_speed) {
       cell.solid_volume += here->solid_volume;
       if (told)
         cell.late += here->solid_volume *
-                     late_velocity(*here, now.values[i].velocity - told->velocity,
+                     late_velocity(*here, now.values[i].velocity - told->expected_at_end(),
                                    now.values[i].pressure_gradient - told->pressure_gradient, window_);
     }
   }
@@ -248,7 +253,9 @@ void Bridge::go_on_from(std::vector<State> state) {
       state, [](const State& fluid) -> const auto& { return fluid.particles.cells; }));
   std::vector<ParticlesToFine::InFluid> particles;
   for (std::size_t k = 0; k < state.size(); ++k) {
-    particles.push_back({std::move(state[k].particles), std::move(state[k].felt_shift),
+    particles.push_back({std::move(state[k].particles),
+                         std::move(state[k].felt_shift),
+                         {},
                          std::move(state[k].solid_volume_before)});
     left_over_[k].go_on_from(std::move(state[k].left_over));
     seen_[k].go_on_from(std::move(state[k].seen));

@@ -42,7 +42,8 @@ class Bridge {
   /// The same on every rank. After take().
   bool owe(const Vec3& position, const Vec3& impulse);
 
-  /// Notes what the pressure of the step just done left to the particles.
+  /// Notes what the pressure of the step just done left to the particles, and of order 2 what the step adds
+  /// to the means over the window.
   void collect_pressure();
 
   /// The rest of the window's, and then what is owed as a whole.
@@ -93,6 +94,8 @@ class Bridge {
   Flow& flow_;
   bool owes_pressure_;  // the fluid has a void fraction and its particles feel the pressure
   bool tells_jump_;     // of the surface: with the capillary force
+  bool of_order_two_;   // in the window
+  bool accelerates_;    // a force needs Du/Dt
   MPI_Comm world_;
   double window_;    // s
   double pace_ = 1;  // at which owed pressure is returned (owed_pressure.hpp), -

@@ -36,7 +36,16 @@ Foam::vectorField curl(const Foam::tensorField& gradient) {
   return curl;
 }
 
+Foam::vectorField acceleration(const Flow& flow, const Foam::tensorField& gradient) {
+  const Foam::vectorField& u = flow.U.primitiveField();
+  return (u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue() + (u & gradient);
+}
+
 }  // namespace
+
+Foam::vectorField fluid_acceleration(const Flow& flow) {
+  return acceleration(flow, fvc::grad(flow.U)().primitiveField());
+}
 
 FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
   const label cells = flow.mesh.nCells();
@@ -50,10 +59,7 @@ FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
   const tmp<Foam::volTensorField> gradient = fvc::grad(flow.U);
   const Foam::tensorField& g = gradient().primitiveField();
   if (need_vorticity(forces)) found.vorticity = curl(g);
-  if (accelerates) {
-    const Foam::vectorField& u = flow.U.primitiveField();
-    found.acceleration = (u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue() + (u & g);
-  }
+  if (accelerates) found.acceleration = acceleration(flow, g);
   return found;
 }
 

@@ -17,4 +17,7 @@ struct FluidGradients {
 /// its velocity to OpenFOAM's stress operator, which takes it as changeable.
 FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces);
 
+/// Du/Dt of the last time step alone, m/s2.
+Foam::vectorField fluid_acceleration(const Flow& flow);
+
 }  // namespace demvof

@@ -15,6 +15,8 @@
 // so that what fine cells with both fluids have of the other's weight is left out: at rest a wet part feels
 // the liquid's hydrostatic gradient and a dry one the gas's, however the surface is smeared.
 //
+// With coupling.order 2 grad p and Du/Dt are means over the window (window_means.hpp).
+//
 // In a fine cell that lies in several bulk cells u and grad p have a linear profile (conservative), so that
 // its subcells differ: q_fb = q_f + grad q_f . (X_fb - X_f), whose mean is q_f. Or they are values at the
 // centre of the bulk cell (sample_fluid.hpp).
@@ -27,6 +29,7 @@
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/fluid_gradients.hpp"
 #include "foam_side/sharing_weights.hpp"
+#include "foam_side/window_means.hpp"
 #include "leastSquaresGrad.H"
 
 namespace demvof {
@@ -85,7 +88,10 @@ void FluidToBulk::renew() {
 
 std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   const SharingWeights weights(flow_, surface_, cut_, sharing_);
-  const Foam::vectorField gradient = pressure_gradient(flow_, forces_.capillary || !flow_.porosity);
+  const Foam::vectorField* mean_of_window = find_mean_gradient(flow_);
+  const Foam::vectorField gradient =
+      mean_of_window ? Foam::vectorField(*mean_of_window + flow_.rho.primitiveField() * flow_.g.value())
+                     : pressure_gradient(flow_, forces_.capillary || !flow_.porosity);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
   tmp<Foam::tensorField> velocity_slope, gradient_slope;
   if (cut_.has_profiles()) {
@@ -161,7 +167,9 @@ void FluidToBulk::sample_points(const Foam::vectorField& gradient, const scalarF
 }
 
 std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
-  const FluidGradients fine = fluid_gradients(flow_, forces_);
+  FluidGradients fine = fluid_gradients(flow_, forces_);
+  if (const Foam::vectorField* mean_of_window = find_mean_acceleration(flow_))
+    fine.acceleration = *mean_of_window;
   const SharingWeights weights(flow_, surface_, cut_, sharing_);
   std::vector<CellValues<BulkFluidGradients>> all;
   for (int k = 0; k < surface_.fluids(); ++k) {

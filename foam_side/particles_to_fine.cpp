@@ -9,7 +9,8 @@
 //
 //   F_b = -J/dt + C (u_ref - (u_seen - u_mean) - u)
 //
-// and a steady state is still not shifted by it. In the fine cells of a bulk cell u_ref has a shape of mean
+// and a steady state is still not shifted by it. With order 2 u_ref goes with the fluid that is expected
+// (continuation.hpp). In the fine cells of a bulk cell u_ref has a shape of mean
 // 0,
 //
 //   lambda (u_f - u_b) + (1 - lambda) grad v . (x_f - X_b)
@@ -58,9 +59,11 @@ void ParticlesToFine::distribute() {
   const TouchedCells& cells = cut_.cells();
   touched_.clear();
   felt_shift_here_.clear();
+  ahead_here_.clear();
   for (const InFluid& fluid : state_) {
     touched_.push_back(cells.fetch_from_owners(fluid.particles, BulkParticles{}));
     if (cut_.shifts_velocity()) felt_shift_here_.push_back(cells.fetch_from_owners(fluid.felt_shift, Vec3{}));
+    if (coupling_.order == 2) ahead_here_.push_back(cells.fetch_from_owners(fluid.ahead, Vec3{}));
   }
   coefficient_part_.assign(state_.size(), std::vector<double>(cut_.subcells().size(), 0.0));
 }
@@ -135,6 +138,7 @@ void ParticlesToFine::spread_sources() {
     for (std::size_t slot = 0; slot < sources.size(); ++slot) {
       sources[slot] = fluid_source(coupling_.exchange, touched_[k][slot], window_);
       if (cut_.shifts_velocity()) sources[slot].reference_velocity -= felt_shift_here_[k][slot];
+      if (coupling_.order == 2) sources[slot].reference_velocity += (2 * done() - 1) * ahead_here_[k][slot];
     }
     // What the particles of a bulk cell have of their own in its fine cells.
     const auto shape = [&](std::size_t i) {
@@ -221,7 +225,6 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     }
   }
   const double dt = flow_.time.deltaTValue();
-  const double done = 1 - (flow_.clock.window_end - flow_.time.value()) / window_;
   std::vector<CellValues<OwedPressure::Left>> left;
   for (int k = 0; k < fluids; ++k) {
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
@@ -237,7 +240,8 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     for (std::size_t i = 0; i < cells.cells.size(); ++i) {
       const double* then = find(state_[k].before, cells.cells[i]);
       const BulkParticles* now = find(state_[k].particles, cells.cells[i]);
-      cells.values[i].solid_volume = (1 - done) * (then ? *then : 0) + done * (now ? now->solid_volume : 0);
+      cells.values[i].solid_volume =
+          (1 - done()) * (then ? *then : 0) + done() * (now ? now->solid_volume : 0);
     }
   }
   return left;

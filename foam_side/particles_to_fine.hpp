@@ -30,6 +30,7 @@ class ParticlesToFine {
     CellValues<BulkParticles> particles;
     // Velocity that they were told, minus the mean that the exchange works on, m/s.
     CellValues<Vec3> felt_shift;
+    CellValues<Vec3> ahead;     // of the fluid of the window's start, in what they were told, m/s
     CellValues<double> before;  // solid volume of what was taken the time before, m3; take() fills it in
   };
   /// One entry per fluid: liquid, gas.
@@ -94,6 +95,8 @@ class ParticlesToFine {
   void go_on_from(std::vector<InFluid> state);
 
  private:
+  /// Of the window, at the end of the present step, -.
+  double done() const { return 1 - (flow_.clock.window_end - flow_.time.value()) / window_; }
   /// Volume, m3, and flux, m4/s, of solid.
   struct Solid {
     double volume = 0;
@@ -118,6 +121,7 @@ class ParticlesToFine {
   std::vector<InFluid> state_;                         // as received
   std::vector<std::vector<BulkParticles>> touched_;    // per touched cell of the cut
   std::vector<std::vector<Vec3>> felt_shift_here_;     // per touched cell; where the mapping makes one
+  std::vector<std::vector<Vec3>> ahead_here_;          // per touched cell; where they are told of order 2
   std::vector<std::vector<double>> coefficient_part_;  // per subcell of the cut: its part of the fine cell's
                                                        // coefficient, -
   std::vector<Droplet> droplets_;

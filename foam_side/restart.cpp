@@ -17,6 +17,7 @@
 #include "coupler/output/write_file.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/window_means.hpp"
 
 namespace demvof {
 namespace {
@@ -95,6 +96,9 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
   }
   if (const Foam::vectorField* own = find_own_gradient(flow)) state["own_gradient"] = components(*own);
   if (const Foam::vectorField* open = find_open_momentum(flow)) state["open_momentum"] = components(*open);
+  if (const Foam::vectorField* mean = find_mean_gradient(flow)) state["mean_gradient"] = components(*mean);
+  if (const Foam::vectorField* mean = find_mean_acceleration(flow))
+    state["mean_acceleration"] = components(*mean);
   return state;
 }
 
@@ -114,6 +118,9 @@ void go_on(Flow& flow, const json& state) {
   if (flow.ghost) add_ghost_density(flow);
   if (state.contains("own_gradient")) read_components(state, "own_gradient", own_gradient(flow));
   if (state.contains("open_momentum")) read_components(state, "open_momentum", open_momentum(flow));
+  if (state.contains("mean_gradient")) read_components(state, "mean_gradient", mean_gradient(flow));
+  if (state.contains("mean_acceleration"))
+    read_components(state, "mean_acceleration", mean_acceleration(flow));
   if (state.contains("velocity_before"))
     read_components(state, "velocity_before", flow.U.oldTime().primitiveFieldRef());
 }

@@ -40,6 +40,7 @@ struct Checks {
   void bulk_grid() const;
   void times() const;
   void adaptive_window() const;
+  void order() const;
   void interchange() const;
   void scene() const;
 };
@@ -152,6 +153,18 @@ void Checks::times() const {
   }
 }
 
+void Checks::order() const {
+  if (!sound({"coupling.order"}) || c.coupling.order == 1) return;
+  if (c.coupling.schedule == Schedule::concurrent)
+    add("coupling.order",
+        "2 needs coupling.schedule: staggered: a fluid that gets in a window what the particles did in the "
+        "one "
+        "before is of order 1 whatever they are told");
+  if (c.coupling.exchange != ExchangeScheme::conservative_implicit)
+    add("coupling.order",
+        "2 needs coupling.exchange: conservative_implicit, which foresees the particles' answer");
+}
+
 void Checks::interchange() const {
   const PhaseInterchange how = c.coupling.phase_interchange;
   const bool liquid_particles =
@@ -220,6 +233,7 @@ void check_case(const CaseParameters& parameters, const std::map<std::string, So
   checks.ranges();
   checks.bulk_grid();
   checks.times();
+  checks.order();
   checks.interchange();
   checks.scene();
 }

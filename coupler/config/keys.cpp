@@ -222,6 +222,10 @@ std::vector<Key> make_keys() {
           DEMVOF_AT(coupling.schedule)),
       key("coupling.exchange", one_of<ExchangeScheme>(), "How momentum passes between particles and fluid.",
           DEMVOF_AT(coupling.exchange)),
+      key("coupling.order", integer(1, 2),
+          "Order in the window of what the particles are told; 1: the fluid of the window's start; 2: of its "
+          "middle, continued from the window before where that is stable.",
+          DEMVOF_AT(coupling.order)),
       key("coupling.sharing", one_of<Sharing>(), "How a bulk cell's source is shared among its fine cells.",
           DEMVOF_AT(coupling.sharing)),
       key("coupling.phase_interchange", one_of<PhaseInterchange>(),

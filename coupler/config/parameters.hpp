@@ -53,6 +53,7 @@ struct CouplingParameters {
   double longest_window() const { return adaptive_window ? adaptive_window->longest : window; }
   Schedule schedule = Schedule::staggered;
   ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
+  int order = 1;                    // in the window, of what the particles are told of the fluid: 1 or 2
   Sharing sharing = Sharing::mass;  // how a bulk cell's source is shared among its fine cells
   AveragingParameters averaging;
   MappingParameters mapping;

@@ -9,7 +9,8 @@
 namespace demvof {
 
 /// What the particles are told of the fluid, on the bulk cells of one rank: the fluid as it is, or relaxed
-/// towards it from what they were told before (relaxation.hpp says by how much and why).
+/// towards it from what they were told before (relaxation.hpp says by how much and why), or ahead of it, of
+/// the window's middle (continuation.hpp).
 class SeenFluid {
  public:
   struct Parameters {
@@ -17,6 +18,8 @@ class SeenFluid {
     ExchangeScheme exchange = ExchangeScheme::conservative_implicit;
     double window = 0;         // s
     bool fluid_moves = false;  // the fluid makes way for particles: porosity
+    int order = 1;             // in the window: 2 continues the fluid to the window's middle
+    double added_mass = 0;     // C_m, -
   };
   explicit SeenFluid(const Parameters& parameters) : parameters_(parameters) {}
 
@@ -50,11 +53,18 @@ class SeenFluid {
   };
   const Relaxed& relaxed() const { return relaxed_; }
 
-  /// What the particles of a bulk cell were last told.
+  /// What the particles of a bulk cell were last told, but for what was continued; and the fluid as it was
+  /// then.
   struct Cell {
-    Vec3 velocity, pressure_gradient, acceleration;  // m/s, Pa/m, m/s2
+    Vec3 velocity, pressure_gradient, acceleration;           // m/s, Pa/m, m/s2
+    Vec3 ahead;                                               // told less `velocity`, m/s: half of D
+    Vec3 fluid_velocity, fluid_gradient, fluid_acceleration;  // m/s, Pa/m, m/s2
+    double tellings = 0;                                      // one after the other, this one included
+    Vec3 expected_at_end() const { return velocity + 2 * ahead; }
   };
   const CellValues<Cell>& cells() const { return seen_; }
+  /// `ahead` of each of them.
+  CellValues<Vec3> ahead() const;
   void go_on_from(CellValues<Cell> seen) { seen_ = std::move(seen); }
 
  private:
@@ -63,7 +73,8 @@ class SeenFluid {
   Parameters parameters_;
   double ratio_ = 1;  // of the coming window to the particles', -
   CellValues<Cell> seen_;
-  std::vector<double> factor_;  // of these, -
+  std::vector<double> factor_;        // of these, -
+  std::vector<double> acceleration_;  // of these, w_a, -
   Relaxed relaxed_;
 };
 

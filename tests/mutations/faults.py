@@ -24,6 +24,7 @@ OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
                "^unit_output_due$": ["unit_output_due"]}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
+ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 
 FAULTS = [
@@ -80,6 +81,10 @@ FAULTS = [
     ("dem_side/forces.cpp", "row.waited += step;", "row.waited += 0 * step;", COMING),
     ("coupler/exchange/owed_pressure.cpp", "0.5 * pace * relaxation[i]", "0.5 / pace * relaxation[i]", OWED),
     ("coupler/exchange/seen_fluid.cpp", "ratio_ == 1 ? simulated : over_window(simulated, ratio_)", "simulated", OWN_WINDOWS),
+    ("coupler/exchange/seen_fluid.cpp", "0.5 * ratio_ * weight", "0.5 * weight", ORDER),
+    ("coupler/exchange/seen_fluid.cpp", "now.velocity - before->fluid_velocity", "now.velocity - before->velocity", ORDER),
+    ("coupler/exchange/seen_fluid.cpp", "told.tellings > 2", "told.tellings > 1", ORDER),
+    ("coupler/exchange/continuation.hpp", "2 - 8 * reaction", "2.0 + 0 * reaction", ORDER),
     ("coupler/exchange/window_rule.hpp", "const double response = response_times(theta) * theta;",
      "const double response = response_times(theta);", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "particles.following_response *= kept * follow;",

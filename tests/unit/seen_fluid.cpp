@@ -135,6 +135,94 @@ TEST(SeenFluid, NobodyThereHearsItAsItIs) {
   EXPECT_EQ(cell.values[0].velocity.x, 2);
 }
 
+/// Particles that are told the fluid as it is with order 1.
+BulkParticles few() {
+  BulkParticles sum;
+  sum.solid_volume = 0.001 * cell_volume;
+  sum.drag_response = 0.3;
+  sum.response_weighted_velocity = {1, 1, 1};  // of the kernel: other cells, too
+  return sum;
+}
+SeenFluid::Parameters of_order_two(bool fluid_moves) {
+  return {Schedule::staggered, ExchangeScheme::conservative_implicit, window, fluid_moves, 2, 0.5};
+}
+
+/// Tells one cell a fluid that speeds up by steps of its own, in windows of the given lengths over the first.
+struct Told {
+  Told(SeenFluid& seen, double speed, double ratio) {
+    seen.set_window(ratio * window);
+    CellValues<BulkFluid> cell{{7}, {fluid(speed, 100 * speed)}};
+    seen.relax(cell, {cell_volume}, {{7}, {few()}});
+    CellValues<BulkFluidGradients> slow{{7}, {{{}, {10 * speed, 0, 0}, {speed, 0, 0}}}};
+    seen.relax(slow);
+    here = cell.values[0];
+    derivatives = slow.values[0];
+  }
+  BulkFluid here;
+  BulkFluidGradients derivatives;
+};
+
+TEST(SeenFluid, OfOrderTwoIsThatOfTheWindowsMiddle) {
+  for (const bool fluid_moves : {true, false}) {
+    SeenFluid seen(of_order_two(fluid_moves));
+    EXPECT_EQ(Told(seen, 1, 1).here.velocity.x, 1) << "nothing is known of before";
+    const Told second(seen, 3, 1);
+    EXPECT_DOUBLE_EQ(second.here.velocity.x, 4);
+    EXPECT_DOUBLE_EQ(second.derivatives.acceleration.x, 30) << "the first was of no window";
+    const Told third(seen, 4, 1.5);
+    EXPECT_DOUBLE_EQ(third.here.velocity.x, 4 + 0.5 * 1.5);
+    EXPECT_DOUBLE_EQ(third.derivatives.acceleration.x, 40 + 1.25 * 10);
+    EXPECT_DOUBLE_EQ(third.derivatives.vorticity.x, 4);
+    EXPECT_DOUBLE_EQ(third.here.pressure_gradient.y, fluid_moves ? 400 : 400 + 1.25 * 100);
+    EXPECT_DOUBLE_EQ(seen.ahead().values[0].x, 0.75);
+    EXPECT_DOUBLE_EQ(seen.cells().values[0].expected_at_end().x, 5.5);
+    EXPECT_EQ(seen.relaxed().cells, 0);
+    CellValues<BulkParticles> felt{{7}, {few()}};
+    felt.values[0].free_response = felt.values[0].drag_response;
+    seen.refer_to_own_cell(felt);
+    EXPECT_DOUBLE_EQ(felt.values[0].response_weighted_velocity.x, 0.3 * 4.75) << "what it was told";
+  }
+}
+
+TEST(SeenFluid, OfOrderTwoIsNotContinuedWhereItIsRelaxed) {
+  Twice first(parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true));
+  Twice second(of_order_two(true));
+  ASSERT_LT(first.seen.relaxed().smallest, 0.75);
+  EXPECT_EQ(first.second.values[0].velocity.x, second.second.values[0].velocity.x);
+  EXPECT_EQ(first.fast.values[0].acceleration.x, second.fast.values[0].acceleration.x);
+}
+
+// A little relaxed: what was told lags, but the change that is continued is the fluid's own.
+TEST(SeenFluid, OfOrderTwoContinuesTheFluidAndNotWhatWasTold) {
+  SeenFluid seen(of_order_two(true));
+  BulkParticles some = few();
+  some.solid_volume = 0.2 * cell_volume;
+  some.pressure_mobility = some.solid_volume / 3000;
+  some.drag_response = 0;
+  const double omega =
+      relaxation_factor(Schedule::staggered, making_way_gain(some, 1000, 0.4 * cell_volume), 0);
+  ASSERT_TRUE(omega > 0.8 && omega < 0.999) << omega;
+  const double speeds[] = {1, 3, 4};
+  double told = 0;
+  for (const double speed : speeds) {
+    CellValues<BulkFluid> cell{{7}, {fluid(speed, 0)}};
+    seen.relax(cell, {0.4 * cell_volume}, {{7}, {some}});
+    told = cell.values[0].velocity.x;
+  }
+  const double second = 1 + omega * 2;
+  EXPECT_DOUBLE_EQ(told, second + omega * (4 - second) + 0.5 * (1 - 4 * (1 - omega)));
+}
+
+TEST(SeenFluid, OfOrderTwoGoesOnFromAState) {
+  SeenFluid once(of_order_two(true)), again(of_order_two(true));
+  Told(once, 1, 1), Told(once, 3, 1), Told(once, 4, 1);
+  again.go_on_from(once.cells());
+  const Told a(once, 7, 1), b(again, 7, 1);
+  EXPECT_EQ(a.here.velocity.x, b.here.velocity.x);
+  EXPECT_EQ(a.derivatives.acceleration.x, b.derivatives.acceleration.x);
+  EXPECT_EQ(b.here.velocity.x, 8.5);
+}
+
 TEST(SeenFluid, GoesOnFromAState) {
   const auto p = parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true);
   const CellValues<BulkParticles> heard{{7}, {particles()}};

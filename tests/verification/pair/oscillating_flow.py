@@ -40,7 +40,7 @@ def last_period(times, omega):
     return times > times[-1] - 2 * math.pi / omega * (1 + 1e-9)
 
 
-def sphere(demvof, ratio, added, per_period):
+def sphere(demvof, ratio, added, per_period, order=1):
     """Velocity of the sphere over that of the liquid, complex; and what is exact. ratio: rho_p/rho."""
     diameter, density, viscosity = 1e-3, 1000.0, 0.1
     beta, volume = 3 * math.pi * viscosity * diameter, math.pi / 6 * diameter**3
@@ -50,10 +50,10 @@ def sphere(demvof, ratio, added, per_period):
     edge = 16 * diameter  # 1e-4 of its bulk cell: a sphere alone
     speed = 1e-4 * diameter * omega  # so small that nothing but the mean moves, and Re = 1e-5
     forces = [{"drag": "schiller_naumann"}, "pressure_gradient"] + ([{"added_mass": added}] if added else [])
-    case = BoxCase(scratch(f"oscillating_flow/sphere_{ratio:g}_{added:g}_{per_period}"), (edge, edge, 5 * edge), (1, 1, 20),
+    case = BoxCase(scratch(f"oscillating_flow/sphere_{ratio:g}_{added:g}_{per_period}_{order}"), (edge, edge, 5 * edge), (1, 1, 20),
                    (1, 1, 5), periods * per_period * window, window, gravity=(0, 0, 0),
                    liquid=(density, viscosity / density), forces=forces, longest_step=window,
-                   coupling={"averaging": {"kernel": "centre"}},
+                   coupling={"averaging": {"kernel": "centre"}, "order": order},
                    sides={**{side: Slip() for side in ("x-", "x+", "y-", "y+")}, "z+": Outlet(),
                           "z-": oscillating("z", speed, omega / (2 * math.pi))})
     case.particles.append(Particle((edge / 2, edge / 2, 2.5 * edge), diameter, ratio * density))
@@ -132,4 +132,5 @@ def main():
     raise SystemExit(record.write())
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -27,11 +27,12 @@ HELD = {"free": 0.0, "half held": 0.5, "held": 1.0}
 
 
 class Map:
-    """One window for the state (u, v, m, j, felt, told): fluid, free particles, left-over; of the particles' last
-    window drag impulse and fluid velocity felt; fluid velocity told for the coming one. Masses over the fluid's, time
-    over the window. stiffness: K dt/(rho eps); loading: mass of all particles over the fluid's."""
+    """One window for the state (u, v, m, j, felt, seen, before): fluid, free particles, left-over; of the particles'
+    last window drag impulse and fluid velocity felt; of the coming one the fluid velocity that is told, but for what is
+    continued with order 2, and the fluid of a window before. Masses over the fluid's, time over the window. stiffness:
+    K dt/(rho eps); loading: mass of all particles over the fluid's."""
 
-    def __init__(self, scheme, schedule, stiffness, loading, held):
+    def __init__(self, scheme, schedule, stiffness, loading, held, order=1):
         self.scheme, self.schedule, self.stiffness, self.held = scheme, schedule, stiffness, held
         self.mass = loading * (1 - held)
         free, free_volume = (1 - held) * stiffness, (1 - held) * VOLUME_RATIO
@@ -49,10 +50,14 @@ class Map:
             kept = min(1, 1.4 * kept) if schedule == "staggered" else kept**1.5
             part = min(1, share / 0.15)
             self.relaxation *= (1 - part + part * kept) / (1 + 3 * share * (1 - share) * max(0, VOLUME_RATIO - 1.2))
-        self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(6)]).T
+        # coupler/exchange/continuation.hpp
+        self.continued = max(0, 1 - 4 * (1 - self.relaxation)) if order == 2 else 0
+        self.matrix = numpy.array([self.window(unit) for unit in numpy.eye(7)]).T
 
     def window(self, now, first=False):
-        u, v, m, j, felt, told = now
+        u, v, m, j, felt, seen, before = now
+        ahead = 0.5 * self.continued * (u - before)
+        told = seen + ahead
         free, held = (1 - self.held) * self.stiffness, self.held * self.stiffness
         push = (1 - self.held) * m
         new_v, new_j, response = v, held * told, self.response
@@ -73,16 +78,17 @@ class Map:
         elif self.scheme == "semi_implicit":
             new_u, new_m = (u + free * seen_v) / (1 + self.stiffness), 0
         else:
+            seen_u += ahead  # expected at the window's end
             new_u = (u - seen_j + response * seen_u) / (1 + response)
             new_m = response * (new_u - seen_u)
-        return [new_u, new_v, new_m, new_j, told, told + self.relaxation * (new_u - told)]
+        return [new_u, new_v, new_m, new_j, told, seen + self.relaxation * (new_u - seen), u]
 
     def growth(self):
         return abs(numpy.linalg.eigvals(self.matrix)).max()
 
     def run(self, windows):
         """Fluid and free-particle velocity at the end of each window, in units of the start's."""
-        state, rows = numpy.array([1.0, 0, 0, 0, 1.0, 1.0]), []
+        state, rows = numpy.array([1.0, 0, 0, 0, 1.0, 1.0, 1.0]), []
         for n in range(windows):
             state = self.matrix @ state if n else numpy.array(self.window(state, first=True))
             rows.append(state[:2])
@@ -96,8 +102,8 @@ def windows_of(mapping, wanted):
     return int(grown[0]) + 1 if len(grown) else wanted
 
 
-def simulate(demvof, name, scheme, schedule, stiffness, loading, held, wanted):
-    mapping = Map(scheme, schedule, stiffness, loading, held)
+def simulate(demvof, name, scheme, schedule, stiffness, loading, held, wanted, order=1):
+    mapping = Map(scheme, schedule, stiffness, loading, held, order)
     windows = windows_of(mapping, wanted)
     window = float(f"{stiffness * FLUID_MASS / DRAG_FACTOR:.6g}")
     case = BoxCase(scratch(f"two_body_relaxation/{name}"), (EDGE, EDGE, EDGE), (2, 2, 2), (1, 1, 1),
@@ -105,7 +111,7 @@ def simulate(demvof, name, scheme, schedule, stiffness, loading, held, wanted):
                    liquid=(DENSITY, VISCOSITY / DENSITY), velocity=(SPEED, 0, 0), dem_step=window / DEM_STEPS,
                    tolerance=1e-30, pimple="momentumPredictor yes;",  # viscosity acts within a step
                    velocity_solver="solver PBiCGStab; preconditioner DILU; tolerance 1e-15; relTol 0;",
-                   coupling={"schedule": schedule, "exchange": scheme, "averaging": {"kernel": "centre"},
+                   coupling={"schedule": schedule, "exchange": scheme, "order": order, "averaging": {"kernel": "centre"},
                              "mapping": {"to_fine": "nearest", "to_bulk": "nearest"}})
     places = itertools.product((0.25 * EDGE, 0.75 * EDGE), repeat=3)
     for i, place in enumerate(places):
@@ -115,7 +121,7 @@ def simulate(demvof, name, scheme, schedule, stiffness, loading, held, wanted):
     free_mass = loading * (1 - held)
     particles = run.history["particle_momentum_x"] / (FLUID_MASS * SPEED)
     pending = run.history["pending_momentum_x"] / (FLUID_MASS * SPEED)
-    predicted = Map(scheme, schedule, window * DRAG_FACTOR / FLUID_MASS, loading, held).run(windows)
+    predicted = Map(scheme, schedule, window * DRAG_FACTOR / FLUID_MASS, loading, held, order).run(windows)
     velocity = numpy.column_stack([fluid[1:], particles[1:] / free_mass if free_mass else 0 * fluid[1:]])
     linear = abs(predicted).max(axis=1) < 1e3  # beyond, particles run through the box, and meet
     total = fluid + particles + pending
@@ -240,4 +246,5 @@ def maps(record, runs):
                          r["velocity"][:, 0] * (1 + loading))
 
 
-main()
+if __name__ == "__main__":
+    main()
