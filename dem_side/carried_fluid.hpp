@@ -22,7 +22,7 @@ namespace demvof {
 struct LocalDrag {
   double factor = 0;    // beta_0, kg/s
   double slip = 0;      // s_0, m/s; 0: not evaluated
-  double exponent = 1;  // n, -
+  double exponent = 0;  // n, -; 0: not asked for yet
 
   double at(double s) const { return factor * (1 + (exponent - 1) * (s / slip - 1)); }
 };

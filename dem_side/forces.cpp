@@ -80,13 +80,20 @@ double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double dia
                : law.factor(fluid, diameter, speed, count);
   };
   LocalDrag& drag = fluid.drag;
-  if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) return drag.at(slip);
-  const bool first = fluid.drag_factor_sum == 0;
-  ClosureCount further;
-  const double beta = factor(slip, drag_count_);
-  drag = {beta, slip, drag_exponent(beta, factor((1 + tangent_step) * slip, further), tangent_step)};
-  if (first) fluid.drag_exponent = drag.exponent;
-  return beta;
+  const auto find_exponent = [&] {
+    ClosureCount further;
+    drag.exponent = drag_exponent(drag.factor, factor((1 + tangent_step) * drag.slip, further), tangent_step);
+  };
+  if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) {
+    if (drag.exponent == 0) find_exponent();
+    return drag.at(slip);
+  }
+  drag = {factor(slip, drag_count_), slip, 0};
+  if (fluid.drag_factor_sum == 0) {
+    find_exponent();
+    fluid.drag_exponent = drag.exponent;
+  }
+  return drag.factor;
 }
 
 template <class Drag>
