@@ -101,7 +101,7 @@ FAULTS = [
      "add(index, (above - below) / 2);", AVERAGING),
     ("coupler/transfer/kernel_weights.cpp", "x.share[a] * (y.share[b] * z.share[c])",
      "x.share[a] * (y.share[c] * z.share[b])", AVERAGING),
-    ("coupler/transfer/fluid_weights.hpp", "to[m] += weight * from[m];", "to[m] += from[m];", AVERAGING),
+    ("coupler/transfer/fluid_weights.hpp", "to[m] += weight * from[m];", "to[m] += weight * weight * from[m];", AVERAGING),
     ("coupler/transfer/fluid_weights.hpp", "factor * share * all_->weight[entry]", "factor * all_->weight[entry]", AVERAGING),
     ("dem_side/carried_fluid.hpp", "(exponent - 1) * (s / slip - 1)", "exponent * (s / slip - 1)", FALLING),
     ("coupler/transfer/kernel_weights.cpp", "weights.weight[entry] *= share[weights.slot[entry]] / sum",
