@@ -19,7 +19,6 @@ SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 HALF = {"^pair.half_submerged$": PAIR}
-FALLING = {"^pair.terminal_velocity.short$": PAIR}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
@@ -103,7 +102,7 @@ FAULTS = [
      "x.share[a] * (y.share[c] * z.share[b])", AVERAGING),
     ("coupler/transfer/fluid_weights.hpp", "to[m] += weight * from[m];", "to[m] += weight * weight * from[m];", AVERAGING),
     ("coupler/transfer/fluid_weights.hpp", "factor * share * all_->weight[entry]", "factor * all_->weight[entry]", AVERAGING),
-    ("dem_side/carried_fluid.hpp", "(exponent - 1) * (s / slip - 1)", "exponent * (s / slip - 1)", FALLING),
+    ("dem_side/carried_fluid.hpp", "(exponent - 1) * (s / slip - 1)", "exponent * (s / slip - 1)", CLOSURES),
     ("coupler/transfer/kernel_weights.cpp", "weights.weight[entry] *= share[weights.slot[entry]] / sum",
      "weights.weight[entry] *= share[weights.slot[entry]]", {**AVERAGING, **MAPPING}),
     ("coupler/transfer/diffusion.cpp", "beyond_ = -1 / std::expm1(periodic ? log_row : 2 * log_row)",

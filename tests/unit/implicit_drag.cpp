@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupler/closures/drag.hpp"
+#include "dem_side/carried_fluid.hpp"
 
 namespace {
 
@@ -141,6 +142,20 @@ TEST(DragResponse, IsThatOfAFreeOrAHeldParticle) {
     EXPECT_NEAR(demvof::drag_response(beta, mass, window, 0) / free, 1, 1e-14);
     EXPECT_NEAR(demvof::drag_response(beta, mass, window, 1) / beta, 1, 1e-14);
     EXPECT_NEAR(demvof::drag_response(beta, mass, window, 0.25) / (0.25 * beta + 0.75 * free), 1, 1e-14);
+  }
+}
+
+// Of a sphere of 2 mm in water at Re 0.2 to 4000, as far from the slip as it is used.
+TEST(LocalDrag, FollowsTheLawNearItsSlip) {
+  for (const double slip : {1e-4, 1e-3, 1e-2, 0.1, 2.0}) {
+    const auto factor = [](double s) { return demvof::schiller_naumann(2e-3, 1000, 1e-3, s, 1); };
+    constexpr double change = 1e-3;
+    const double beta = factor(slip);
+    const demvof::LocalDrag drag{beta, slip,
+                                 demvof::drag_exponent(beta, factor((1 + change) * slip), change)};
+    EXPECT_EQ(drag.at(slip), beta);
+    for (const double near : {0.995 * slip, 1.005 * slip})
+      EXPECT_NEAR(drag.at(near) / factor(near), 1, 4e-6) << slip;
   }
 }
 
