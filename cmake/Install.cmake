@@ -20,7 +20,7 @@ endforeach()
 install(FILES coupler/cli/new.py coupler/cli/report.py coupler/cli/study.py docs/case_file.schema.json DESTINATION ${_share}
         COMPONENT programs)
 install(DIRECTORY coupler/cli/creating coupler/cli/reporting coupler/cli/studying DESTINATION ${_share} COMPONENT programs
-        FILES_MATCHING PATTERN "*.py")
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.js")
 install(FILES README.md LICENSE DESTINATION ${_doc} COMPONENT programs)
 install(DIRECTORY docs DESTINATION ${_doc} COMPONENT programs PATTERN "records" EXCLUDE)
 install(DIRECTORY cases DESTINATION ${_share} COMPONENT cases USE_SOURCE_PERMISSIONS
@@ -37,5 +37,5 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # The libraries by dpkg-shlibdeps, from what the programs were built with; by name what they start and read.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "openmpi-bin, openfoam, liggghts, python3, python3-matplotlib, python3-yaml")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-vtk9, libjs-three")
 include(CPack)

@@ -7,7 +7,8 @@ first folder; with several runs results.csv beside it has one row per run, and a
 Says where the report is. --strip FILE: the first run's pictures side by side in one file, instead of a report.
 Exit status: 0 done, 2 a folder is not that of a run, 3 the report could not be written.
 
-Needs matplotlib; VTK's Python modules for the pictures of the surface (left out, and said so, without them).
+Needs matplotlib; VTK's Python modules for the pictures of the surface, and three.js for the view in three dimensions
+(left out, and said so, without them).
 """
 import argparse
 import os

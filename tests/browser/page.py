@@ -45,7 +45,8 @@ return JSON.stringify(found);
 @contextlib.contextmanager
 def chromium():
     options = webdriver.ChromeOptions()
-    for switch in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"):
+    for switch in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
+                   "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):  # WebGL by the processor
         options.add_argument(switch)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     browser = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
@@ -62,7 +63,8 @@ def look(browser, file, width, screenshot=None):
     browser.get(file.resolve().as_uri())
     found = json.loads(browser.execute_script(LOOK.replace("SMALLEST", str(SMALLEST_TEXT))))
     complaints = found["complaints"] + [f"console: {entry['message']}" for entry in browser.get_log("browser")
-                                        if entry["level"] in ("SEVERE", "WARNING")]
+                                        if entry["level"] in ("SEVERE", "WARNING")
+                                        and "GL Driver Message (OpenGL, Performance" not in entry["message"]]
     if screenshot:
         height = browser.execute_script("return document.documentElement.scrollHeight")
         browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",

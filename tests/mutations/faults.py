@@ -26,6 +26,7 @@ OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": 
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
+VIEW, BROWSER = {"^unit_report_view$": ["demvof"]}, {"^browser_view$": ["demvof"]}
 
 FAULTS = [
     # ---- closures
@@ -170,4 +171,19 @@ FAULTS = [
     ("foam_side/porosity.cpp", "(eps - porosity.goal.field()) / (flow.clock",
      "(eps - porosity.eps.primitiveField()) / (flow.clock", FLOW),
     ("foam_side/face_drag.cpp", "drag /= Foam::sqr(eps);", "drag /= eps;", BED),
+    # ---- the report in three dimensions
+    ("coupler/cli/reporting/space.py", "with_common_points(together.GetOutput())", "together.GetOutput()", VIEW),
+    ("coupler/cli/reporting/space.py", "numpy.argsort(lots[ids])[:most]", "numpy.argsort(lots[:count])[:most]", VIEW),
+    ("coupler/cli/reporting/space.py", "fewer.SetTargetReduction(1 - most", "fewer.SetTargetReduction(most", VIEW),
+    ("coupler/cli/reporting/space.py", "above_half(boundary, liquid) if count and", "above_half(boundary, liquid) if", VIEW),
+    ("coupler/cli/reporting/fields.py", 'int((name == "internalMesh") != boundary)', "1", VIEW),
+    ("coupler/cli/reporting/view.py", "packed((array - lower) / size,", "packed((array - lower) / (upper - lower),", VIEW),
+    ("coupler/cli/reporting/view.js", "vec4(position.xy * drawn,", "vec4(position.xy * 0.8 * drawn,", BROWSER),
+    ("coupler/cli/reporting/view.js", "r / 65535 * this.data.largest / this.size", "r / 65535 * this.data.largest", BROWSER),
+    ("coupler/cli/reporting/view.js", "setComponent(vertical, sign)", "setComponent(vertical, -sign)", BROWSER),
+    ("coupler/cli/reporting/view.js", "this.shown + by", "this.shown + 0 * by", BROWSER),
+    ("coupler/cli/reporting/view.js", "this.controls.enableZoom = false;\n", "\n", BROWSER),
+    ("coupler/cli/reporting/view.js", "this.controls.addEventListener(\"change\", () => this.draw());", "", BROWSER),
+    ("coupler/cli/reporting/view.js", "object.visible = box.checked;", "object.visible = true;", BROWSER),
+    ("coupler/cli/reporting/view.js", "this.scene.remove(object);", "", BROWSER),
 ]

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-CODE = {".cpp", ".hpp", ".py", ".sh", ".cmake"}
+CODE = {".cpp", ".hpp", ".py", ".js", ".sh", ".cmake"}
 SCRIPTS = {"Allrun", "Allwmake", "Alltest", "Allclean", "CMakeLists.txt"}
 MACHINE_PATH = re.compile(r"(?<![\w.$}/~*-])/(home|root|tmp|work|Users|mnt|opt|srv)/\w")
 SOLVER_INCLUDE = re.compile(r'#\s*include\s*[<"](?!coupler/)(foam_side/|dem_side/|liggghts/|lammps|[\w/]+\.(H|C)[>"])')

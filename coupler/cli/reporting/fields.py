@@ -8,7 +8,6 @@ import math
 import os
 import pathlib
 import pickle
-import re
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -39,16 +38,33 @@ class Section:
 
 def read(folder, time=None):
     """The times with fields, or the Section at one of them. Throws RuntimeError with the reason."""
-    command = [sys.executable, "-m", "reporting.fields", str(folder)] + ([] if time is None else [repr(time)])
+    found = in_own_process("reporting.fields", folder, *([] if time is None else [time]))
+    return found if time is None else Section(**found)
+
+
+def in_own_process(module, folder, *arguments):
+    """What the module's main pickles for that run; numbers follow: a time, s, and what else the module asks for. Throws
+    RuntimeError with the reason."""
+    command = [sys.executable, "-m", module, str(folder), *map(repr, arguments)]
     here = pathlib.Path(__file__).resolve().parent.parent
     done = subprocess.run(command, env={**os.environ, "PYTHONPATH": str(here)}, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, check=False)
     if done.returncode != 0:
         lines = done.stderr.decode(errors="replace").strip().splitlines()
         reason = lines[-1] if done.returncode == 1 and lines else f"VTK crashed ({done.returncode})"
-        raise RuntimeError(f"the fields{'' if time is None else f' at {time:g} s'} cannot be read: {reason}")
-    answer = pickle.loads(done.stdout)
-    return answer if time is None else Section(**answer)
+        raise RuntimeError(f"the fields{f' at {arguments[0]:g} s' if arguments else ''} cannot be read: {reason}")
+    return pickle.loads(done.stdout)
+
+
+def answer(question):
+    """The other end: pickles question(), or ends with the reason in one line."""
+    try:
+        found = question()
+    except ImportError as error:
+        sys.exit(f"VTK's Python modules are not installed (Debian: python3-vtk9): {error}")
+    except RuntimeError as error:
+        sys.exit(str(error))
+    pickle.dump(found, sys.stdout.buffer)
 
 
 class Fluid:
@@ -70,15 +86,17 @@ class Fluid:
         self.reader.UpdateInformation()
         times = self.reader.GetTimeValues()
         self.times = [times.GetValue(i) for i in range(times.GetNumberOfValues())] if times else []
-        self.reader.DisableAllPatchArrays()
-        self.reader.SetPatchArrayStatus("internalMesh", 1)
         names = [self.reader.GetCellArrayName(i) for i in range(self.reader.GetNumberOfCellArrays())]
         self.alpha = next((name for name in names if name.startswith("alpha.")), None)
         for name in names:
             self.reader.SetCellArrayStatus(name, int(name == self.alpha))
 
-    def meshes(self, time):
-        """The blocks of the mesh with the liquid fraction, at one of self.times."""
+    def meshes(self, time, boundary=False):
+        """The blocks of the mesh with the liquid fraction, at one of self.times; or its patches, without those between
+        ranks."""
+        for i in range(self.reader.GetNumberOfPatchArrays()):
+            name = self.reader.GetPatchArrayName(i)
+            self.reader.SetPatchArrayStatus(name, int((name == "internalMesh") != boundary))
         self.reader.UpdateTimeStep(time)
         self.reader.Update()
         return [mesh for mesh in leaves(self.reader.GetOutputDataObject(0)) if mesh.GetNumberOfCells() > 0]
@@ -98,8 +116,7 @@ def section(folder, time):
         raise RuntimeError("there is no mesh")
     boxes = numpy.array([mesh.GetBounds() for mesh in meshes])
     lower, upper = boxes[:, 0::2].min(axis=0), boxes[:, 1::2].max(axis=0)
-    gravity = read_gravity(folder)
-    vertical = int(numpy.argmax(numpy.abs(gravity))) if numpy.any(gravity) else 2
+    vertical, _ = upward(read_gravity(folder))
     across = [axis for axis in range(3) if axis != vertical]
     horizontal = max(across, key=lambda axis: upper[axis] - lower[axis])
     normal = next(axis for axis in across if axis != horizontal)
@@ -113,6 +130,14 @@ def section(folder, time):
     near = numpy.abs(positions[:, normal] - middle[normal]) <= 2 * radii
     return Section(lower[axes], upper[axes], "xyz"[normal], middle[normal], polygons, liquid, surface,
                    positions[near][:, axes], radii[near], speeds[near])
+
+
+def upward(gravity):
+    """The axis along which gravity (m/s2) pulls most, and the way up on it, 1 or -1; z without gravity."""
+    if not numpy.any(gravity):
+        return 2, 1
+    axis = int(numpy.argmax(numpy.abs(gravity)))
+    return axis, -int(numpy.sign(gravity[axis]))
 
 
 def cut(meshes, alpha, origin, normal, axes):
@@ -199,13 +224,7 @@ def particles(folder, time):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    try:
-        answer = vars(section(folder, float(sys.argv[2]))) if len(sys.argv) > 2 else Fluid(folder).times
-    except ImportError as error:
-        sys.exit(f"VTK's Python modules are not installed (Debian: python3-vtk9): {error}")
-    except RuntimeError as error:
-        sys.exit(str(error))
-    pickle.dump(answer, sys.stdout.buffer)
+    answer(lambda: vars(section(folder, float(sys.argv[2]))) if len(sys.argv) > 2 else Fluid(folder).times)
 
 
 if __name__ == "__main__":

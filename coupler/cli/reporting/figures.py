@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The report's figures; each function returns a matplotlib figure, or None when there is nothing to draw."""
+import functools
 import math
 
 import matplotlib
@@ -54,12 +55,19 @@ def picture_times(run, available):
     return sorted(chosen)
 
 
-def read_sections(run):
-    """The mid-plane at the times shown, {time: Section}; the largest speed of a particle in them (None without
-    particles); the reasons why a time is missing. Throws RuntimeError when there is nothing at all."""
+@functools.cache
+def shown_times(run):
+    """picture_times of what the run left. Throws RuntimeError when there is nothing at all."""
     times = picture_times(run, fields.read(run.folder))
     if not times:
         raise RuntimeError("the run left no time folders")
+    return times
+
+
+def read_sections(run):
+    """The mid-plane at the times shown, {time: Section}; the largest speed of a particle in them (None without
+    particles); the reasons why a time is missing. Throws RuntimeError when there is nothing at all."""
+    times = shown_times(run)
     sections, reasons = {}, []
     for time in times:
         try:

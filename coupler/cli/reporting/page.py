@@ -5,12 +5,15 @@ import html as markup
 import io
 import json
 
-from reporting import figures, tables
+from reporting import figures, tables, view
 
 STYLE = """
-:root { color-scheme: light; --line: #dde3e8; --quiet: #5b6670; }
+:root { color-scheme: light dark; --line: #dde3e8; --quiet: #5b6670; --text: #1c2329; --page: #fff; --block: #f4f6f8; }
+@media (prefers-color-scheme: dark) {
+  :root { --line: #3d464e; --quiet: #a3adb6; --text: #e3e7ea; --page: #1a1f24; --block: #262c32; }
+}
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1320px; padding: 1rem; color: #1c2329; background: #fff;
+body { margin: 0 auto; max-width: 1320px; padding: 1rem; color: var(--text); background: var(--page);
        font: 16px/1.5 system-ui, sans-serif; }
 h1 { font-size: 1.6rem; line-height: 1.2; } h2 { font-size: 1.2rem; margin: 2rem 0 .6rem; }
 h2.run { font-size: 1.5rem; margin-top: 3rem; border-top: 2px solid var(--line); padding-top: 1rem; }
@@ -27,7 +30,7 @@ img { width: 100%; height: auto; display: block; } .plot img { max-width: 640px;
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; } td { overflow-wrap: anywhere; min-width: 2.2rem; } td .number { overflow-wrap: normal; }
-pre { overflow-x: auto; background: #f4f6f8; padding: .7rem; font-size: .85rem; white-space: pre-wrap; }
+pre { overflow-x: auto; background: var(--block); padding: .7rem; font-size: .85rem; white-space: pre-wrap; }
 .bar { display: inline-block; height: .7rem; background: #1f6fb2; vertical-align: middle; min-width: 1px; }
 """
 
@@ -42,20 +45,23 @@ def html(runs):
     for run in runs:
         if len(runs) > 1:
             parts.append(f"<h2 class=\"run\">{escape(run.name)}</h2>")
-        parts += one_run(run, alone=len(runs) == 1)
+        parts += one_run(run, views=len(runs))
+    if any("class=\"view\"" in part for part in parts):
+        parts.append(view.scripts())
     return ("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
             f"<title>{escape(case_name(runs[0]))}: {escape(title)}</title><style>{STYLE}</style></head><body>"
             + "\n".join(parts) + "</body></html>\n")
 
 
-def one_run(run, alone):
+def one_run(run, views):
     kind = "good" if run.completed else "bad"
     parts = [f"<p><span class=\"status {kind}\">{escape(run.status)}</span> {escape(tables.headline(run))}</p>"]
     if not run.completed:
         parts.append(guarded(stopped, run))
-    parts.append(section("Surface and particles", guarded(pictures, run)))
-    if alone:
+    parts += [section("Surface and particles", guarded(pictures, run)),
+              section("In three dimensions", guarded(lambda shown: view.html(shown, views), run))]
+    if views == 1:
         parts += [section("Fronts", guarded(fronts, [run])), section("History", guarded(histories, [run]))]
     parts.append('<div class="columns">' + section("Run", guarded(summary, run))
                  + section("Conservation", guarded(conservation, run)) + section("Cost", guarded(costs, run))
