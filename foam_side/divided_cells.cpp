@@ -71,7 +71,7 @@ std::string walls_inside_bulk_cells(const Foam::fvMesh& mesh, const BulkGrid& gr
   return fmt::format(
       "{} bulk cells have fluid on both sides of a wall inside them: particles on one side displace fluid on "
       "the other, too, and are told of both. Put walls on faces of the bulk grid, or choose smaller bulk "
-      "cells",
+      "cells (docs/warnings.md, Walls inside bulk cells)",
       divided);
 }
 

@@ -134,7 +134,7 @@ std::string slope_without_effect(const Foam::fvMesh& mesh, const vector& g) {
           "Gravity has {} m/s2 along {}, where the mesh is periodic: p_rgh balances it, so that it moves "
           "particles and "
           "not the fluid. Drive the fluid by constant/fvOptions (meanVelocityForce, "
-          "vectorSemiImplicitSource).",
+          "vectorSemiImplicitSource) (docs/warnings.md, Gravity along a periodic direction)",
           g[axis], "xyz"[axis]);
   return {};
 }

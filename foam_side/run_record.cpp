@@ -42,8 +42,10 @@ std::vector<std::string> recorded_names(const CaseParameters& parameters, bool p
   std::vector<std::string> names;
   for (const Quantity& quantity : known_quantities) {
     const std::string name(quantity.name);
-    if (name == "window" && !parameters.coupling.adaptive_window) continue;
-    const bool of_particles = name == "particles" || name == "window" || name == "solid_front" ||
+    if (name.rfind("window", 0) == 0 && !parameters.coupling.adaptive_window) continue;
+    if (name == "fine_cells" && !parameters.fluid.refinement) continue;
+    const bool of_particles = name == "particles" || name.rfind("window", 0) == 0 || name == "solid_front" ||
+                              name == "active_bulk_cells" || name == "smallest_relaxation" ||
                               name.rfind("particle_", 0) == 0 || name.rfind("pending_", 0) == 0;
     if (particles || !of_particles) names.push_back(name);
   }
@@ -191,8 +193,8 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
     if (parameters_.coupling.adaptive_window) {
       RunResults::Windows& windows = results.window ? *results.window : results.window.emplace();
       windows.enter(window.length, window.error);
-      window_ = window.length;
     }
+    last_window_ = {window.length, window.error, window.relaxation, window.active_cells};
     results.relaxation.smallest = std::min(results.relaxation.smallest, window.relaxation);
     results.relaxation.cells += window.relaxed_cells;
     results.peak_memory_bytes.fluid = static_cast<std::int64_t>(memory);
@@ -246,9 +248,15 @@ Quantities RunRecord::all_quantities(const Flow& flow, const ParticleReport* par
   q["kinetic_energy_ratio"] = initial_potential_ > 0 ? q["kinetic_energy"] / initial_potential_ : 0;
   q["mechanical_energy"] = q["kinetic_energy"] + q["potential_energy"];
   add_vector(q, "fluid_momentum", fluid_momentum(flow));
+  q["fine_cells"] = static_cast<double>(Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>()));
   if (!particles) return q;
   q["particles"] = particles->count;
-  if (parameters_.coupling.adaptive_window) q["window"] = window_;
+  if (parameters_.coupling.adaptive_window) {
+    q["window"] = last_window_.length;
+    q["window_error"] = last_window_.error;
+  }
+  q["active_bulk_cells"] = static_cast<double>(last_window_.active_cells);
+  q["smallest_relaxation"] = last_window_.relaxation;
   q["particle_kinetic_energy"] = particles->kinetic_energy;
   add_vector(q, "particle_momentum", particles->momentum);
   add_vector(q, "pending_momentum", books_->pending());
@@ -282,62 +290,74 @@ std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
   constexpr double unbounded = 1e-8;  // of alpha; what MULES promises
   std::vector<std::string> lines = flow.scene.advice;
   if (flow.alpha_excess > unbounded)
-    lines.push_back(
-        fmt::format("alpha left [0, 1] by up to {:.2g}: nLimiterIter 10 (MULES's own is 3), more "
-                    "nAlphaSubCycles or a smaller maxAlphaCo",
-                    flow.alpha_excess));
+    lines.push_back(fmt::format(
+        "alpha left [0, 1] by up to {:.2g}: nLimiterIter 10 (MULES's own is 3), more "
+        "nAlphaSubCycles or a smaller maxAlphaCo (docs/warnings.md, Liquid fraction out of bounds)",
+        flow.alpha_excess));
   if (limits_.relieved_cells > 0)
     lines.push_back(
         fmt::format("bulk cells above coupling.averaging.maximum_solid_fraction passed {:.3g} m3 to their "
-                    "neighbours, {} times",
+                    "neighbours, {} times (docs/warnings.md, Too much solid in a bulk cell)",
                     limits_.relieved_volume, limits_.relieved_cells));
   if (limits_.unplaced_volume > 0)
     lines.push_back(
-        fmt::format("no room on the bulk grid for up to {:.3g} m3 above the maximum solid fraction",
+        fmt::format("no room on the bulk grid for up to {:.3g} m3 above the maximum solid fraction "
+                    "(docs/warnings.md, Too much solid in a bulk cell)",
                     limits_.unplaced_volume));
   if (limits_.negative_cells > 0)
     lines.push_back(fmt::format(
         "coupling.mapping.to_fine interpolated a solid fraction below 0, {} times: it was taken as "
-        "0, and conservation.solid_volume has the error",
+        "0, and conservation.solid_volume has the error (docs/warnings.md, Negative solid fraction)",
         limits_.negative_cells));
   if (limits_.full_cells > 0)
     lines.push_back(fmt::format(
         "fine cells kept a void fraction of 0.05 though particles fill more of them, {} times: so much is "
         "not "
         "displaced, and conservation.solid_volume has the error. Try a coarser bulk_grid, a larger "
-        "coupling.averaging.width or a smaller coupling.averaging.maximum_solid_fraction",
+        "coupling.averaging.width or a smaller coupling.averaging.maximum_solid_fraction (docs/warnings.md, "
+        "Full fine cells)",
         limits_.full_cells));
   if (limits_.held_back.cells > 0)
     lines.push_back(
         fmt::format("bulk cells that hold next to no particles owed them more pressure than ten times the "
-                    "steepest there, {} times: up to {:.3g} N s waited for a later window",
+                    "steepest there, {} times: up to {:.3g} N s waited for a later window (docs/warnings.md, "
+                    "Owed pressure)",
                     limits_.held_back.cells, limits_.held_back.impulse));
   if (limits_.waiting_particles > 0)
-    lines.push_back(fmt::format("particles felt no fluid {} times: new in a window, or where there is none",
-                                limits_.waiting_particles));
+    lines.push_back(
+        fmt::format("particles felt no fluid {} times: new in a window, or where there is none "
+                    "(docs/warnings.md, Particles without fluid)",
+                    limits_.waiting_particles));
   if (limits_.outside_particles > 0)
-    lines.push_back(fmt::format(
-        "particles were outside the fluid's mesh {} times: there they displace nothing and feel nothing",
-        limits_.outside_particles));
+    lines.push_back(
+        fmt::format("particles were outside the fluid's mesh {} times: there they displace nothing and feel "
+                    "nothing (docs/warnings.md, Particles outside the fluid)",
+                    limits_.outside_particles));
   if (books_->gone_impulse() > 0)
-    lines.push_back(fmt::format("impulse of {:.3g} N s went with particles in the window in which they left",
-                                books_->gone_impulse()));
+    lines.push_back(
+        fmt::format("impulse of {:.3g} N s went with particles in the window in which they left "
+                    "(docs/warnings.md, Impulse that left)",
+                    books_->gone_impulse()));
   if (limits_.drop_resolution < drop_resolution * (1 - 1e-6))
     lines.push_back(fmt::format(
         "particles became liquid with {:.3g} fine cells per diameter: replacement needs {} for the shape "
-        "of the drop, refine the mesh at the interface",
+        "of the drop, refine the mesh at the interface (docs/warnings.md, Drops on a coarse mesh)",
         limits_.drop_resolution, drop_resolution));
   if (limits_.crossing_windows > 0)
-    lines.push_back(fmt::format(
-        "there were particles at the interface in {} windows, against coupling.phase_interchange: none",
-        limits_.crossing_windows));
+    lines.push_back(
+        fmt::format("there were particles at the interface in {} windows, against "
+                    "coupling.phase_interchange: none (docs/warnings.md, Particles at the surface)",
+                    limits_.crossing_windows));
   if (limits_.unplaced_left_over > 0)
-    lines.push_back(fmt::format("left-over impulse of {:.3g} N s found no particle to receive it",
-                                limits_.unplaced_left_over));
+    lines.push_back(
+        fmt::format("left-over impulse of {:.3g} N s found no particle to receive it (docs/warnings.md, "
+                    "Left-over without receiver)",
+                    limits_.unplaced_left_over));
   for (const auto& [name, evaluations, outside] : shared_->results.closures)
     if (outside > 0)
       lines.push_back(
-          fmt::format("{} was evaluated outside the range it was fitted for in {} of {} cases ({:.3g} %)",
+          fmt::format("{} was evaluated outside the range it was fitted for in {} of {} cases ({:.3g} %) "
+                      "(docs/warnings.md, Range of a law)",
                       name, outside, evaluations, 100.0 * outside / evaluations));
   return lines;
 }

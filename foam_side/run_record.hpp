@@ -94,7 +94,11 @@ class RunRecord {
   double initial_potential_ = 0;  // J
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
-  double window_ = 0;             // length of the last window, s, where each has its own
+  struct {
+    double length = 0, error = 0;  // where windows have their own lengths: s, -
+    double relaxation = 1;
+    long active_cells = 0;
+  } last_window_;  // as history.csv has it
   std::optional<ParticleReport> last_particles_;
 
   /// Limits that acted, over the windows so far.

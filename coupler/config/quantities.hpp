@@ -52,6 +52,10 @@ inline constexpr std::array known_quantities = {
     Quantity{"pending_momentum_z", "kg m/s", "its z component"},
     Quantity{"particles", "-", "number of particles in the run"},
     Quantity{"window", "s", "length of the last window, where windows have their own lengths"},
+    Quantity{"window_error", "-", "its error over what is allowed"},
+    Quantity{"active_bulk_cells", "-", "bulk cells that were averaged and exchanged in the last window"},
+    Quantity{"smallest_relaxation", "-", "smallest relaxation factor of what particles were told in it"},
+    Quantity{"fine_cells", "-", "cells of the fluid's mesh, where fluid.refinement changes it"},
 };
 
 /// The table's entry, or nullptr when there is no quantity of that name.

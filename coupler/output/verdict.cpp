@@ -28,7 +28,8 @@ Verdict judge(const RunResults& results, double largest_courant, bool exchange_c
     verdict.warnings.push_back(
         fmt::format("{} of {} particles were lost: they left the box where the script has no outlet. If they "
                     "should not: a "
-                    "smaller timestep in the script, stiffer contacts, walls where the box ends",
+                    "smaller timestep in the script, stiffer contacts, walls where the box ends "
+                    "(docs/warnings.md, Lost particles)",
                     lost, results.particles.initial + results.particles.inserted));
   const auto& errors = results.conservation;
   if (exchange_closes && !(errors.exchange <= worst_books))
@@ -45,14 +46,16 @@ Verdict judge(const RunResults& results, double largest_courant, bool exchange_c
   for (const auto& [name, error] :
        {std::pair("solid_volume", errors.solid_volume), std::pair("liquid_volume", errors.liquid_volume)})
     if (!(error <= worst_books))
-      verdict.warnings.push_back(fmt::format("conservation.{} is {:.2g}: volume came or went{}", name, error,
-                                             std::string(name) == "liquid_volume"
-                                                 ? ", if not through an open boundary, then wrongly"
-                                                 : " between particles, bulk grid and mesh"));
+      verdict.warnings.push_back(fmt::format(
+          "conservation.{} is {:.2g}: volume came or went{} (docs/warnings.md, Volume that came or went)",
+          name, error,
+          std::string(name) == "liquid_volume" ? ", if not through an open boundary, then wrongly"
+                                               : " between particles, bulk grid and mesh"));
   if (!(largest_courant <= fast_courant))
-    verdict.warnings.push_back(fmt::format(
-        "the fluid crossed up to {:.3g} cells in a step: what is that fast is not resolved in time",
-        largest_courant));
+    verdict.warnings.push_back(
+        fmt::format("the fluid crossed up to {:.3g} cells in a step: what is that fast is not resolved in "
+                    "time (docs/warnings.md, Courant number)",
+                    largest_courant));
   if (!(largest_courant <= absurd_courant))
     fail(fmt::format("the fluid crossed up to {:.3g} cells in a step: the flow had left what is physical. {}",
                      largest_courant, smaller_steps));

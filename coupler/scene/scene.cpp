@@ -139,7 +139,7 @@ void Plan::advise_on_drag(DragLaw chosen) {
   if (known.empty()) known = "koch_hill (void fractions from 0.359 on)";
   advice.push_back(fmt::format(
       "forces.drag: {} was fitted for void fractions from {:g} on, and the bed has {:.2g} on the bulk grid: "
-      "laws that know it are {}, e.g. forces: [{{drag: {}}}, pressure_gradient]",
+      "laws that know it are {}, e.g. forces: [{{drag: {}}}, pressure_gradient] (docs/warnings.md, Drag law)",
       name_of(chosen), smallest, bed, known, known.substr(0, known.find(' '))));
 }
 
@@ -151,7 +151,7 @@ void Plan::advise_on_added_mass(const ForceParameters& forces) {
   advice.push_back(
       fmt::format("forces: without added_mass the lightest particles, {:.3g} kg/m3 in a fluid of {:.4g} "
                   "kg/m3, answer {:.2g} times "
-                  "too quickly to what accelerates them: {{added_mass: 0.5}}",
+                  "too quickly to what accelerates them: {{added_mass: 0.5}} (docs/warnings.md, Added mass)",
                   particle, fluid, 1 + 0.5 * fluid / particle));
 }
 
@@ -159,7 +159,8 @@ void Plan::advise_on_phases() {
   if (!facts_.two_fluids || facts_.liquid_density >= facts_.gas_density) return;
   advice.push_back(fmt::format(
       "transportProperties: the first of 'phases' counts as the liquid, and with {:.4g} kg/m3 it is lighter "
-      "than the other, {:.4g} kg/m3: liquid_volume, fronts, levels and the surface are those of the first",
+      "than the other, {:.4g} kg/m3: liquid_volume, fronts, levels and the surface are those of the first "
+      "(docs/warnings.md, Liquid and gas)",
       facts_.liquid_density, facts_.gas_density));
 }
 
@@ -173,7 +174,8 @@ void Plan::advise_on_dem_step() {
     if (time > 0 && facts_.dem_time_step > most * time)
       advice.push_back(fmt::format(
           "the script's timestep, {:.3g} s, is {:.2g} of {} ({:.3g} s): contacts are not resolved and can "
-          "give particles energy out of nothing; a tenth or less is usual: shorter steps, or softer contacts",
+          "give particles energy out of nothing; a tenth or less is usual: shorter steps, or softer contacts "
+          "(docs/warnings.md, DEM step)",
           facts_.dem_time_step, facts_.dem_time_step / time, name, time));
 }
 

@@ -86,7 +86,28 @@ def short_files(folder):
             yield path, len(lines(path)), "longer than 400 lines"
 
 
-RULES = {rule.__name__: rule for rule in (machine_paths, licence_header, solver_free_coupler, layers, short_files)}
+HEADING = re.compile(r"^#+ (.*)", re.MULTILINE)
+REFERENCE = re.compile(r"\(docs/(\w+\.md), ([^)\"]+)\)")
+
+
+def explained(folder):
+    """What a message or comment calls (docs/PAGE.md, HEADING) is there, and each heading of docs/warnings.md is called."""
+    headings = {path.name: set(HEADING.findall(path.read_text())) for path in (folder / "docs").glob("*.md")}
+    named = set()
+    for path in files(folder):
+        if path.suffix not in {".cpp", ".hpp"}:
+            continue
+        text = re.sub(r'"\s*\n\s*"|\n\s*//+ ?', lambda gap: "" if '"' in gap[0] else " ", path.read_text())
+        for page, heading in REFERENCE.findall(text):
+            named.add((page, heading))
+            if heading not in headings.get(page, ()):
+                yield path, 1, f"there is no docs/{page}, {heading}"
+    for heading in sorted(headings.get("warnings.md", set()) - {"Warnings"}):
+        if ("warnings.md", heading) not in named:
+            yield folder / "docs" / "warnings.md", 1, f"no message names {heading}"
+
+
+RULES = {rule.__name__: rule for rule in (machine_paths, licence_header, solver_free_coupler, layers, short_files, explained)}
 
 
 def self_test():
@@ -99,6 +120,7 @@ def self_test():
         "licence_header": "#include <mpi.h>\n",
         "solver_free_coupler": licence + '#include "fvMesh.H"\n',
         "short_files": licence + "\n" * 400,
+        "explained": licence + 'const char* said = "no room (docs/warnings.md, "\n    "Rooms)";\n',
     }
     for name, text in broken.items():
         with tempfile.TemporaryDirectory() as folder:

@@ -43,10 +43,15 @@ class Reports(unittest.TestCase):
 
     def test_windows_of_their_own_lengths_are_shown_over_time(self):
         folder = write_run(self.place / "a", window={"shortest": 1e-4, "longest": 2e-3, "largest_error": 1.5, "over": 3})
-        (folder / "history.csv").write_text("time,window\n# s,s\n0,0\n0.1,2e-3\n0.2,1e-4\n")
+        (folder / "history.csv").write_text("time,window,window_error,active_bulk_cells,smallest_relaxation\n# s,s,-,-,-\n"
+                                            "0,0,0,0,1\n0.1,2e-3,0.5,7,0.6\n0.2,1e-4,2,8,0.7\n")
         code, printed, page = report(folder)
         self.assertEqual(code, 0, printed)
-        self.assertIn('alt="Length of the windows"', page)
+        shown = page[page.index("From window to window"):page.index("<h2>Run</h2>")]
+        for title in ("Length of the windows", "Error of the windows over what is allowed", "Bulk cells averaged and exchanged",
+                      "Smallest relaxation factor of what particles are told"):
+            self.assertIn(f'alt="{title}"', shown)
+            self.assertEqual(page.count(f'alt="{title}"'), 1)
         self.assertIn("0.0001 s to 0.002 s, 3 above the tolerance", page)
         self.assertNotIn("Not shown", page)
 
@@ -64,6 +69,16 @@ class Reports(unittest.TestCase):
         numpy.testing.assert_allclose(section.centres, [[0.25, 0.125]])
         numpy.testing.assert_allclose(section.radii, [0.02])
         numpy.testing.assert_allclose(section.speeds, [5])
+
+    def test_warnings_unfold_what_explains_them(self):
+        said = ["law <x> out of range (docs/warnings.md, Range of a law)", "odd (docs/warnings.md, No such heading)", "plain"]
+        code, printed, page = report(write_run(self.place / "a", warnings=said))
+        self.assertEqual(code, 0, printed)
+        self.assertIn("; 3 warnings.", page)
+        self.assertIn("<summary>law &lt;x&gt; out of range</summary><p>A law (drag, lift, torque, history) was asked", page)
+        self.assertIn("<code>closures</code> of results.json.</p>", page)  # the last words of that section
+        self.assertIn('<summary>odd</summary><p class="quiet">docs/warnings.md, No such heading</p>', page)
+        self.assertIn("<li>plain</li>", page)
 
     def test_a_failed_run_says_where_and_why(self):
         failure = {"side": "particles", "stage": "DEM steps", "time": 0.15, "message": "Lost atoms <3>"}

@@ -41,7 +41,16 @@ GROUPS = [
     ("Liquid held in interface cells", ["liquid_in_interface_cells"], LINEAR),
     ("Solid volume on the mesh, relative change", ["solid_volume_mesh"], CHANGE),
     ("Particles", ["particles"], LINEAR),
+    ("Momentum of the fluids", ["fluid_momentum_x", "fluid_momentum_y", "fluid_momentum_z"], LINEAR),
+    ("Momentum of the particles", ["particle_momentum_x", "particle_momentum_y", "particle_momentum_z"], LINEAR),
+    ("Momentum owed between them", ["pending_momentum_x", "pending_momentum_y", "pending_momentum_z"], LINEAR),
+]
+WINDOWS = [  # what is decided from window to window
     ("Length of the windows", ["window"], LOGARITHMIC),
+    ("Error of the windows over what is allowed", ["window_error"], LOGARITHMIC),
+    ("Bulk cells averaged and exchanged", ["active_bulk_cells"], LINEAR),
+    ("Smallest relaxation factor of what particles are told", ["smallest_relaxation"], LINEAR),
+    ("Fine cells", ["fine_cells"], LINEAR),
 ]
 
 
@@ -168,10 +177,14 @@ def fronts(runs):
 
 
 def histories(runs):
-    """[(title, figure)]: what the runs recorded, quantities that belong together in one figure."""
-    known = {name for _, names, _ in GROUPS for name in names}
+    """[(title, figure)]: what the runs recorded, but for WINDOWS."""
+    known = {name for _, names, _ in GROUPS + WINDOWS for name in names}
     rest = [name for run in runs for name in run.history if name not in known and name != "time"]
-    groups = GROUPS + [(name.replace("_", " "), [name], LINEAR) for name in dict.fromkeys(rest)]
+    return grouped(runs, GROUPS + [(name.replace("_", " "), [name], LINEAR) for name in dict.fromkeys(rest)])
+
+
+def grouped(runs, groups):
+    """[(title, figure)]: quantities that belong together in one figure."""
     made = []
     for title, names, axis in groups:
         if len(runs) > 1:  # one quantity, several runs

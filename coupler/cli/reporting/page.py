@@ -5,7 +5,7 @@ import html as markup
 import io
 import json
 
-from reporting import figures, tables, view
+from reporting import explained, figures, tables, view
 
 STYLE = """
 :root { color-scheme: light dark; --line: #dde3e8; --quiet: #5b6670; --text: #1c2329; --page: #fff; --block: #f4f6f8; }
@@ -30,6 +30,7 @@ img { width: 100%; height: auto; display: block; } .plot img { max-width: 640px;
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; vertical-align: top; padding: .25rem .8rem .25rem 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; } td { overflow-wrap: anywhere; min-width: 2.2rem; } td .number { overflow-wrap: normal; }
+.warnings { max-width: 60rem; padding-left: 1.2rem; } .warnings p { margin: .4rem 0; } summary { cursor: pointer; }
 pre { overflow-x: auto; background: var(--block); padding: .7rem; font-size: .85rem; white-space: pre-wrap; }
 .bar { display: inline-block; height: .7rem; background: #1f6fb2; vertical-align: middle; min-width: 1px; }
 """
@@ -41,7 +42,7 @@ def html(runs):
     parts = [f"<h1>{escape(case_name(runs[0]))}: {escape(title)}</h1>"]
     if len(runs) > 1:
         parts += [guarded(comparison, runs), section("Fronts", guarded(fronts, runs)),
-                  section("History", guarded(histories, runs))]
+                  section("History", guarded(histories, runs)), section("From window to window", guarded(windows, runs))]
     for run in runs:
         if len(runs) > 1:
             parts.append(f"<h2 class=\"run\">{escape(run.name)}</h2>")
@@ -62,10 +63,12 @@ def one_run(run, views):
     parts += [section("Surface and particles", guarded(pictures, run)),
               section("In three dimensions", guarded(lambda shown: view.html(shown, views), run))]
     if views == 1:
-        parts += [section("Fronts", guarded(fronts, [run])), section("History", guarded(histories, [run]))]
+        parts += [section("Fronts", guarded(fronts, [run])), section("History", guarded(histories, [run])),
+                  section("From window to window", guarded(windows, [run]))]
+    parts.append(section("Warnings", guarded(warnings, run)))
     parts.append('<div class="columns">' + section("Run", guarded(summary, run))
-                 + section("Conservation", guarded(conservation, run)) + section("Cost", guarded(costs, run))
-                 + section("What was on, and why", guarded(scene, run)) + "</div>")
+                 + section("Conservation", guarded(conservation, run)) + section("Cost", guarded(costs, run)) + "</div>")
+    parts.append(section("What was on, and why", guarded(scene, run)))
     parts.append(guarded(configuration, run))
     return parts
 
@@ -144,6 +147,15 @@ def histories(runs):
     made = figures.histories(runs)
     if not made:
         return "<p class=\"quiet\">There is no history.csv, or no row in it yet.</p>"
+    return plots(made)
+
+
+def windows(runs):
+    made = figures.grouped(runs, figures.WINDOWS)
+    return plots(made) if made else ""
+
+
+def plots(made):
     return "<div class=\"columns plot\">" + "".join(
         f"<figure><figcaption>{escape(title)}</figcaption>{image(figure, title)}</figure>" for title, figure in made) + "</div>"
 
@@ -154,8 +166,12 @@ def summary(run):
 
 def conservation(run):
     rows = [(escape(what), "-" if error is None else f"{error:.1e}") for what, error in tables.conservation(run)]
-    warnings = "".join(f"<li>{escape(warning)}</li>" for warning in run.results.get("warnings") or [])
-    return table(rows, ("what must hold", "worst relative error")) + (f"<ul>{warnings}</ul>" if warnings else "")
+    return table(rows, ("what must hold", "worst relative error"))
+
+
+def warnings(run):
+    said = run.results.get("warnings")
+    return explained.html(said) if said else ""
 
 
 def costs(run):
@@ -171,7 +187,10 @@ def costs(run):
 def scene(run):
     rows = [(escape(item.get("decision", "")), "on" if item.get("on") else "off", escape(item.get("reason", "")))
             for item in run.results.get("scene") or []]
-    return table(rows, ("", "", "because")) if rows else "<p class=\"quiet\">Not recorded.</p>"
+    if not rows:
+        return "<p class=\"quiet\">Not recorded.</p>"
+    decided = "Decided at the start, for the whole run; what changes from window to window is shown over time above."
+    return table(rows, ("", "", "because")) + f"<p class=\"quiet\">{decided}</p>"
 
 
 def configuration(run):
