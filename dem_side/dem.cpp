@@ -204,7 +204,7 @@ ContactTimes Dem::contact_times() const {
   return shortest_contact_times(*liggghts_);
 }
 
-Vec3 Dem::gravity() const {
+Vec3 Dem::script_gravity() const {
   Vec3 gravity;
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
     double components[3];
@@ -214,6 +214,15 @@ Vec3 Dem::gravity() const {
     }
   });
   return gravity;
+}
+
+void Dem::set_gravity(const Vec3& gravity) {
+  if (!weighed_)
+    throw InputError(fmt::format(
+        "{}: gravity.table needs a 'fix gravity' (fix g all gravity 9.81 vector 0 0 -1), which says on which "
+        "particles gravity acts",
+        script_.string()));
+  gravity_ = gravity;
 }
 
 ParticleDomain Dem::domain() const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -100,7 +101,11 @@ class Dem {
   MPI_Comm world() const { return world_; }
   double time_step() const;            // s
   ContactTimes contact_times() const;  // collective
-  Vec3 gravity() const;                // m/s2
+  Vec3 script_gravity() const;         // of fix gravity, m/s2
+  /// What acts in place of it from here on, m/s2: the added forces make up for the difference. Throws
+  /// InputError when there is no fix gravity to say on which particles.
+  void set_gravity(const Vec3& gravity);
+  Vec3 gravity() const { return gravity_.value_or(script_gravity()); }
   ParticleDomain domain() const;
   ParticleCensus census() const;                    // collective
   bool inserts_particles() const;                   // the script has an insertion that is not over yet
@@ -135,6 +140,7 @@ class Dem {
   std::filesystem::path script_, log_;
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
+  std::optional<Vec3> gravity_;
   bool continued_;
   LAMMPS_NS::FixInsertStream* stream_ = nullptr;                // the first of the script; all share its rows
   int integrated_ = 0, turned_ = 0, frozen_ = 0, weighed_ = 0;  // group bits

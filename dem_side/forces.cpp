@@ -176,7 +176,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     return;
   }
   const double step = half_step_ ? dem_.time_step() / 2 : dem_.time_step();
-  const Vec3 gravity = dem_.gravity();
+  const Vec3 gravity = dem_.gravity(), of_script = dem_.script_gravity();
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
   // Spins begin with the torques of set-up, and what a particle remembers is of whole steps.
@@ -192,9 +192,12 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     const bool released = stream.releases && !half_step_;  // set-up is after the release
     const bool moves = dem_.moves(particles.mask[i]) && !stream.carries && !released;
     if (released) sums.held -= mass / step * stream.change;
-    const Vec3 weight = dem_.has_weight(particles.mask[i]) ? mass * gravity : Vec3{};
-    const Vec3 contact = vec3(particles.force[i]) - weight;
-    row.contacts.touching += touches(contact, weight);
+    const bool heavy = dem_.has_weight(particles.mask[i]);
+    const Vec3 weight = heavy ? mass * gravity : Vec3{};
+    const Vec3 weight_of_script = heavy ? mass * of_script : Vec3{};  // LIGGGHTS has added it
+    const Vec3 own = constant + (weight - weight_of_script);          // what is to be added without any fluid
+    const Vec3 contact = vec3(particles.force[i]) - weight_of_script;
+    row.contacts.touching += touches(contact, weight_of_script);
     ++row.contacts.evaluations;
     if (!half_step_) row.path += step * velocity;  // that of the half step: what the position has moved with
     if (moves && !half_step_) {                    // Dem::set_up() has given half a step of these
@@ -202,8 +205,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       sums.contact += contact;
       sums.gravity += weight;
       sums.constant += constant;
+    } else if (moves) {
+      sums.gravity += weight - weight_of_script;
     }
-    store(external[i], moves ? constant : Vec3{});
+    store(external[i], moves ? own : Vec3{});
     if (row.waits()) {
       if (moves && row.known == 0) row.waited += step;
       if (torque) torque->act(particles, i, {});
@@ -296,7 +301,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     }
     sums.drag += given;
     if (moves)
-      store(external[i], given + steady + constant);
+      store(external[i], given + steady + own);
     else
       sums.held += given + steady;
   }

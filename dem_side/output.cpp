@@ -7,7 +7,7 @@ namespace {
 ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double window) {
   const ParticleArrays particles = dem.particles();
   double* const* fluid_force = dem.added_forces();
-  const Vec3 gravity = dem.gravity();
+  const Vec3 gravity = dem.script_gravity();
   ParticleFrame frame;
   for (int i = 0; i < particles.count; ++i) {
     Vec3 contact;

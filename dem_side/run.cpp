@@ -94,6 +94,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Dem dem(world.comm(), script, options.out / "particles.log",
           start ? restart_file(options.out, start->window) : fs::path());
   install_signal_handlers();
+  if (parameters.gravity) dem.set_gravity(parameters.gravity->at(0));
   int steps = 0;  // of a window
   if (coupling.adaptive_window)
     require_whole_steps(coupling.end_time, dem.time_step());
@@ -120,8 +121,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   const auto weigh = [&] { averaging.weigh(positions(dem.particles()), radii(dem.particles())); };
   weigh();
   averaging.in(0).deposit(forces.contributions());
-  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.gravity(), options.out,
-                                 start ? start->checksum : "no"),
+  link.handshake(handshake_items(version(), configuration_hash(parameters), dem.script_gravity(), options.out,
+                                 start ? start->checksum : "no", parameters.gravity),
                  facts(dem, forces, averaging, world));
   const WindowPlan& plan = link.receive_plan();
   if (!plan.interface) replacement.reset();
@@ -172,6 +173,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     const FluidMessage fluid = link.fluid();
     const double window = link.window_length();
     if (plan.own_lengths()) steps = static_cast<int>(link.steps());
+    if (parameters.gravity) dem.set_gravity(parameters.gravity->mean(link.begin_time(), link.end_time()));
     FluidsAtParticles felt;
     {
       const Stopwatch watch(seconds.averaging);

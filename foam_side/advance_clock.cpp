@@ -62,8 +62,10 @@ bool advance_clock(Flow& flow) {
     choose_step_like_interfoam(flow, limits, rates);
   record_courant(flow.clock, rates, flow.time.deltaTValue());
 
+  const double now = flow.time.value();
   ++flow.time;
   ++flow.clock.steps;
+  if (!flow.clock.windowed) set_gravity(flow, flow.gravity.mean(now, flow.time.value()));
   Foam::Info << "\nTime = " << flow.time.timeName() << "  step " << flow.time.deltaTValue() << " s  Courant "
              << flow.clock.courant << ", at the interface " << flow.clock.interface_courant << Foam::endl;
   return true;

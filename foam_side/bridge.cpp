@@ -189,6 +189,12 @@ void Bridge::set_window(double window) {
   particles_to_fine_.set_window(window);
 }
 
+void Bridge::follow_gravity(const Vec3& gravity) {
+  const Vec3 change = set_gravity(flow_, gravity);
+  for (SeenFluid& fluid : seen_) fluid.change_gravity(change);
+  if (norm(change) > 0) means_.clear();
+}
+
 std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
   if (means_.empty()) {
     surface_.look();

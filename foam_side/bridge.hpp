@@ -54,6 +54,9 @@ class Bridge {
   WindowChange change(double largest_speed);
   void set_window(double window);
 
+  /// Gravity of the coming window; before bulk_fluids.
+  void follow_gravity(const Vec3& gravity);
+
   /// The fluid on the active bulk cells owned by this rank, relaxed, and the impulse owed to their particles,
   /// which is theirs from now on.
   std::vector<CellValues<BulkFluid>> bulk_fluids();

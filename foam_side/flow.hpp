@@ -99,7 +99,8 @@ struct Flow {
   volScalarField rho;          // kg/m3
   surfaceScalarField rho_phi;  // eps_f rho u.S, kg/s, from the same flux as alpha
   Foam::autoPtr<Foam::incompressible::turbulenceModel> turbulence;
-  const Foam::uniformDimensionedVectorField& g;  // m/s2
+  GravityTable gravity;                          // of the run; without a table the case's g at any time
+  const Foam::uniformDimensionedVectorField& g;  // of the present window or step, m/s2
   dimensionedScalar gh_reference;                // g.x of the reference height, m2/s2
   volScalarField gh;                             // g.x - gh_reference, m2/s2
   surfaceScalarField ghf;
@@ -179,6 +180,15 @@ void end_step(Flow& flow);  // impulse, bounds; without windows also output as i
 // continuous.
 
 // ---- used by several stages --------------------------------------------------------------------
+
+/// Gravity from here on, m/s2; returned is by how much it has changed.
+Vec3 set_gravity(Flow& flow, const Vec3& gravity);
+
+/// gh and ghf of the present gravity and mesh.
+void renew_gravity_potential(Flow& flow);
+
+/// The gravity potential's zero, m2/s2: constant/hRef is a height, taken along the axis of g.
+dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField& g, const Foam::fvMesh& mesh);
 
 /// Corrects phi by a potential so that div(phi) = -wanted_rate (1/s, per cell; nullptr: 0), with the
 /// least impulse where mobility (m3 s/kg, at faces) is a measure of how easily the fluid moves. Solver of

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -126,16 +127,23 @@ void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
   }
 }
 
-std::string slope_without_effect(const Foam::fvMesh& mesh, const vector& g) {
+std::string slope_without_effect(const Foam::fvMesh& mesh, const GravityTable& gravity) {
   const AllEnds ends = find_ends(mesh);
-  for (int axis = 0; axis < 3; ++axis)
-    if (ends.along[axis].cyclic > 0 && std::abs(g[axis]) > tolerance * Foam::mag(g))
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ends.along[axis].cyclic == 0) continue;
+    const auto along = [axis](const GravityTable::Row& row) { return std::abs(row.gravity[axis]); };
+    const Vec3 g =
+        std::max_element(gravity.rows.begin(), gravity.rows.end(), [&](const auto& a, const auto& b) {
+          return along(a) < along(b);
+        })->gravity;
+    if (std::abs(g[axis]) > tolerance * norm(g))
       return fmt::format(
           "Gravity has {} m/s2 along {}, where the mesh is periodic: p_rgh balances it, so that it moves "
           "particles and "
           "not the fluid. Drive the fluid by constant/fvOptions (meanVelocityForce, "
           "vectorSemiImplicitSource) (docs/warnings.md, Gravity along a periodic direction)",
           g[axis], "xyz"[axis]);
+  }
   return {};
 }
 

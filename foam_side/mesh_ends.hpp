@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "coupler/exchange/gravity_table.hpp"
 #include "coupler/grid/bulk_grid.hpp"
 #include "foam_side/openfoam.hpp"
 
@@ -19,7 +20,7 @@ void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh);
 
 /// What to say about gravity along a direction in which the mesh is periodic; empty where there is none.
 /// Collective.
-std::string slope_without_effect(const Foam::fvMesh& mesh, const vector& g);
+std::string slope_without_effect(const Foam::fvMesh& mesh, const GravityTable& gravity);
 
 /// Throws InputError when walls move on one side only: surfaces that the particles' script moves (fix
 /// move/mesh), or the fluid's mesh. A wall of the fluid with a velocity of its own (U: rotatingWallVelocity,

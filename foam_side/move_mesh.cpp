@@ -19,8 +19,7 @@ bool is_due(const Flow& flow) {
 }
 
 void renew_geometry(Flow& flow) {
-  flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
-  flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
+  renew_gravity_potential(flow);
   flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
   flow.face_force.clear();
   extras(flow).rotating.update();

@@ -3,6 +3,7 @@
 // g, hRef), system/ (controlDict, fvSchemes, fvSolution with PIMPLE and alpha.*).
 
 #include "foam_side/extras.hpp"
+#include "foam_side/vectors.hpp"
 
 namespace demvof {
 namespace {
@@ -10,17 +11,6 @@ namespace {
 Foam::IOobject file(const Foam::Time& time, const Foam::objectRegistry& registry, const Foam::word& name,
                     Foam::IOobject::readOption read) {
   return {name, time.timeName(), registry, read, Foam::IOobject::AUTO_WRITE};
-}
-
-/// The gravity potential's zero: constant/hRef is a height, taken along the axis of g.
-dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField& g,
-                                      const Foam::fvMesh& mesh) {
-  const Foam::uniformDimensionedScalarField height(
-      Foam::IOobject("hRef", mesh.time().constant(), mesh, Foam::IOobject::READ_IF_PRESENT,
-                     Foam::IOobject::NO_WRITE),
-      dimensionedScalar(Foam::dimLength, Foam::Zero));
-  const Foam::vector axis = Foam::cmptMag(g.value()) / (Foam::mag(g.value()) + Foam::VSMALL);
-  return (g & axis) * height;
 }
 
 void make_continuous(Flow& flow) {
@@ -68,6 +58,7 @@ Flow::Flow(const Foam::argList& args, const Scene& plan, const Foam::instant* st
       ghf("ghf", (g & mesh.Cf()) - gh_reference),
       p(Foam::IOobject("p", time.timeName(), mesh, Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE),
         p_rgh + rho * gh) {
+  gravity.rows = {{0, to_vec3(g.value())}};
   rho.oldTime();  // ddt(rho, U) needs it from the first step on
   mesh.setFluxRequired(p_rgh.name());
   mesh.setFluxRequired(alpha.name());

@@ -95,9 +95,10 @@ Quantities fluid_quantities(const Flow& flow) {
   const vector at = Foam::returnReduce(fastest_at, Foam::maxOp<vector>());
   const double front = Foam::returnReduce(liquid_front(flow), Foam::maxOp<double>());
 
-  // Floor area of the mesh: its volume over its extent along gravity.
-  const double weight = Foam::mag(g);
-  const double height = weight > 0 ? Foam::mag(mesh.bounds().span() & g) / weight : 0;
+  // Floor area of the mesh: its volume over its extent along the axis that gravity is closest to.
+  const vector size = Foam::cmptMag(g);
+  const int axis = size.z() >= Foam::max(size.x(), size.y()) ? 2 : size.y() >= size.x() ? 1 : 0;
+  const double height = size[axis] > 0 ? mesh.bounds().span()[axis] : 0;
   return {{"kinetic_energy", sums[0]},
           {"potential_energy", sums[1]},
           {"velocity_squared_integral", sums[2]},

@@ -74,8 +74,7 @@ void renew_geometry(Flow& flow) {
        {&flow.alpha, &flow.alpha.oldTime(), &flow.mixture.alpha2(), &flow.rho, &flow.rho.oldTime()})
     field->correctBoundaryConditions();
   for (volVectorField* field : {&flow.U, &flow.U.oldTime()}) field->correctBoundaryConditions();
-  flow.gh = (flow.g & flow.mesh.C()) - flow.gh_reference;
-  flow.ghf = (flow.g & flow.mesh.Cf()) - flow.gh_reference;
+  renew_gravity_potential(flow);
   Foam::setRefCell(flow.p, flow.p_rgh, flow.pimple.dict(), flow.p_reference_cell, flow.p_reference);
   flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
 }

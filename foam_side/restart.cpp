@@ -86,6 +86,8 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
                 {"longest_step", flow.clock.limit},
                 {"largest_courant", flow.clock.largest_courant},
                 {"cells", flow.mesh.nCells()}};
+  const vector& g = flow.g.value();
+  state["gravity"] = {g.x(), g.y(), g.z()};
   if (flow.refinement) state["crossed"] = flow.refinement->crossed;
   if (flow.porosity) {
     const scalarField& goal = flow.porosity->goal.field();
@@ -107,6 +109,7 @@ void go_on(Flow& flow, const json& state) {
   flow.time.setDeltaT(state.at("time_step"), false);
   flow.clock.limit = state.at("longest_step");
   flow.clock.largest_courant = state.at("largest_courant");
+  set_gravity(flow, vec3(state.at("gravity")));
   if (flow.refinement) {
     flow.refinement->crossed = state.at("crossed");
     flow.refinement->first = false;

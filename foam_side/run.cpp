@@ -143,7 +143,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
       set_initial_porosity(flow, to_fine.void_fraction());
     }
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
-    if (pressure_says_nothing(flow)) balance_pressure(flow);
+    if (norm(set_gravity(flow, flow.gravity.at(0))) > 0 || pressure_says_nothing(flow))
+      balance_pressure(flow);
     record.start(flow, &first.report);
     write_fields(flow);
   }
@@ -199,6 +200,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
       link.set_steps(steps.next);
       bridge.set_window(link.window_length());
     }
+    bridge.follow_gravity(flow.gravity.mean(link.begin_time(), link.end_time()));
     link.window(fluid_message(), advance, take);
     RunRecord::Window done;
     done.number = link.number();
@@ -250,6 +252,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
 /// Plain VOF: steps and output times as in controlDict, like interFoam, to the case file's end time.
 RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& record) {
   if (parameters.coupling.end_time > 0) flow.time.setEndTime(parameters.coupling.end_time);
+  set_gravity(flow, flow.gravity.at(flow.time.value()));
   FluidSeconds seconds;
   record.start(flow, nullptr);
   bool go_on = true;
@@ -317,7 +320,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     link.emplace(world, grid->cell_count(), parameters.coupling.time_out);
     particles = json::parse(
         link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args),
-                                        options.out, start ? start->checksum : "no"),
+                                        options.out, start ? start->checksum : "no", parameters.gravity),
                         facts_as_json(facts).dump()));
     add_particle_facts(facts, particles);
     grid.emplace(box.lower, box.upper, box.cells, particles.at("periodic"));
@@ -333,8 +336,10 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const std::unique_ptr<Flow> flow =
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
-  if (const std::string said = slope_without_effect(flow->mesh, flow->g.value()); !said.empty())
-    scene.advice.push_back(said);
+  if (parameters.gravity) flow->gravity = *parameters.gravity;
+  for (const std::string& said : {slope_without_effect(flow->mesh, flow->gravity),
+                                  gravity_that_jumps(case_gravity(args), flow->gravity)})
+    if (!said.empty()) scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
         "constant/dynamicMeshDict: dynamicRefineFvMesh: with particles the case file says where the mesh is "

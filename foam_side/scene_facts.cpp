@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/scene_facts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -90,6 +92,17 @@ Vec3 case_gravity(const Foam::argList& args) {
   const Foam::uniformDimensionedVectorField g(
       IOobject("g", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
   return to_vec3(g.value());
+}
+
+std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity) {
+  constexpr double typed_twice = 1e-6;  // relative
+  const Vec3 first = gravity.at(0);
+  if (norm(first - of_case) <= typed_twice * norm(of_case)) return {};
+  return fmt::format(
+      "gravity.table begins with [{}, {}, {}] m/s2, constant/g and fix gravity have [{}, {}, {}]: the table "
+      "has the "
+      "whole of gravity, and the run starts with its first one",
+      first.x, first.y, first.z, of_case.x, of_case.y, of_case.z);
 }
 
 }  // namespace demvof

@@ -12,5 +12,7 @@ SceneFacts fluid_facts(const Foam::argList& args);
 
 /// Gravity of the case, m/s2.
 Vec3 case_gravity(const Foam::argList& args);
+/// What to say when the run does not begin with that; empty when it does.
+std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity);
 
 }  // namespace demvof

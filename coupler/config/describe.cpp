@@ -31,6 +31,16 @@ Json schema_of_one(const ValueRule& rule) {
     case Form::flag:
       schema["type"] = "boolean";
       break;
+    case Form::table:
+      schema["oneOf"] = {{{"type", "string"}, {"minLength", 1}},
+                         {{"type", "array"},
+                          {"minItems", 1},
+                          {"items",
+                           {{"type", "array"},
+                            {"items", {{"type", "number"}}},
+                            {"minItems", *rule.list_length},
+                            {"maxItems", *rule.list_length}}}}};
+      return schema;
   }
   const auto bound = [&rule](double value) {
     return rule.form == Form::integer ? Json(static_cast<long>(value)) : Json(value);
@@ -45,7 +55,7 @@ Json schema_of_value(const Key& key) {
   Json schema = {{"description", key.doc}};
   if (!key.rule.unit.empty() && key.rule.unit != "-")
     schema["description"] = fmt::format("{} Unit: {}.", key.doc, key.rule.unit);
-  if (key.rule.list_length) {
+  if (key.rule.list_length && key.rule.form != Form::table) {
     schema["type"] = "array";
     schema["items"] = schema_of_one(key.rule);
     if (*key.rule.list_length != ValueRule::any_length)

@@ -35,6 +35,15 @@ void from_json_value(const Json& json, Vec3& v) {
   v = {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
 }
 
+Json to_json_value(const std::vector<GravityTable::Row>& rows) {
+  Json json = Json::array();
+  for (const auto& [t, g] : rows) json.push_back({t, g.x, g.y, g.z});
+  return json;
+}
+void from_json_value(const Json& json, std::vector<GravityTable::Row>& rows) {
+  for (const Json& row : json) rows.push_back({row[0], {row[1], row[2], row[3]}});
+}
+
 // Rules.
 
 using Form = ValueRule::Form;
@@ -71,6 +80,13 @@ ValueRule history_quantity() {
   ValueRule rule;
   rule.form = Form::choice;
   for (const Quantity& quantity : known_quantities) rule.choices.emplace_back(quantity.name);
+  return rule;
+}
+ValueRule table(int columns, const std::string& unit) {
+  ValueRule rule;
+  rule.form = Form::table;
+  rule.list_length = columns;
+  rule.unit = unit;
   return rule;
 }
 ValueRule above(double bound, ValueRule rule) {
@@ -144,6 +160,11 @@ std::vector<Section> make_sections() {
           "The coarse Cartesian grid on which particles and fluid meet, 2-4 particle diameters per "
           "cell; needed with particles.",
           DEMVOF_AT(bulk_grid)),
+      optional_section(
+          "gravity",
+          "Gravity that changes, as in a tank that is shaken: in the run it acts on both sides in place of "
+          "constant/g and fix gravity, which have to be there and agree (docs/theory.md).",
+          DEMVOF_AT(gravity)),
       {"coupling", "When and how the two sides exchange.", Presence::required},
       optional_section(
           "coupling.window",
@@ -197,6 +218,13 @@ std::vector<Key> make_keys() {
                    "Upper corner; above the lower one in every direction.", DEMVOF_AT(bulk_grid->upper))),
       required(key("bulk_grid.cells", list_of(3, integer(1, many_cells)),
                    "Number of bulk cells in each direction.", DEMVOF_AT(bulk_grid->cells))),
+
+      required(key(
+          "gravity.table", at_least(-1e9, at_most(1e9, table(4, "s, m/s2"))),
+          "Rows [t, g_x, g_y, g_z] of the whole of gravity in the frame of the walls, linear in between and "
+          "constant before the first and after the last; a file has a row in each line, and # begins a "
+          "comment.",
+          DEMVOF_AT(gravity->rows))),
 
       required(key(
           "coupling.end_time", above(0, number("s")),

@@ -10,6 +10,7 @@
 #include "coupler/closures/force_parameters.hpp"
 #include "coupler/exchange/crossing.hpp"
 #include "coupler/exchange/exchange_parameters.hpp"
+#include "coupler/exchange/gravity_table.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
 #include "coupler/transfer/mapping_parameters.hpp"
 
@@ -84,6 +85,7 @@ struct CaseParameters {
   FluidParameters fluid;
   std::optional<ParticleParameters> particles;  // absent: plain VOF, no partner
   std::optional<BulkGridParameters> bulk_grid;  // needed with particles
+  std::optional<GravityTable> gravity;          // absent: constant, as the two sides' inputs say
   CouplingParameters coupling;
   ForceParameters forces;
   SceneParameters scene;

@@ -22,7 +22,10 @@ CaseParameters fill(const std::string& file, const GivenValues& given, Mistakes&
     const std::string section = parent_of(key.path);
     if (item != given.values().end()) {
       Json value;
-      if (const auto mistake = read_value(item->second, key.rule, value))
+      auto mistake = read_value(item->second, key.rule, value);
+      if (!mistake && key.rule.form == ValueRule::Form::table && value.is_string())
+        mistake = read_table(beside_case_file(parameters, value), key.rule, value);
+      if (mistake)
         mistakes.push_back(Mistake{given.sources().at(key.path), key.path, *mistake});
       else
         key.set(parameters, value);

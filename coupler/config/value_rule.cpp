@@ -37,6 +37,8 @@ std::string noun(const ValueRule& rule, bool plural) {
       return fmt::format("{} {}", plural ? "words from" : "one of", fmt::join(rule.choices, ", "));
     case Form::flag:
       return "true or false";
+    case Form::table:
+      return "a file";
   }
   return "";
 }
@@ -86,6 +88,7 @@ std::optional<std::string> read_one(const YAML::Node& node, const ValueRule& rul
   const bool quoted = node.Tag() == "!";
   switch (rule.form) {
     case Form::text:
+    case Form::table:  // of a file
       value = text;
       return {};
     case Form::number:
@@ -109,7 +112,10 @@ std::optional<std::string> read_one(const YAML::Node& node, const ValueRule& rul
 
 std::string allowed_text(const ValueRule& rule) {
   std::string text;
-  if (!rule.list_length)
+  if (rule.form == Form::table)
+    text = fmt::format("a file, or a list of rows of {} numbers, the first of them increasing",
+                       *rule.list_length);
+  else if (!rule.list_length)
     text = noun(rule, false);
   else if (*rule.list_length == ValueRule::any_length)
     text = "a list of " + noun(rule, true);
@@ -126,6 +132,8 @@ Json off_value(const ValueRule& rule) {
 }
 
 std::optional<std::string> read_value(const YAML::Node& node, const ValueRule& rule, Json& value) {
+  if (rule.form == Form::table)
+    return node.IsScalar() ? read_one(node, rule, value) : read_table(node, rule, value);
   if (!rule.list_length) return read_one(node, rule, value);
   const auto length = static_cast<std::size_t>(*rule.list_length);
   if (!node.IsSequence() || (length != ValueRule::any_length && node.size() != length))

@@ -39,6 +39,7 @@ void SeenFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& f
   factor_.assign(fluid.cells.size(), 1.0);
   acceleration_.clear();
   relaxed_ = {};
+  const Vec3 heavier = std::exchange(gravity_change_, {});
   for (std::size_t i = 0; i < fluid.cells.size(); ++i) {
     BulkFluid& cell = fluid.values[i];
     const BulkFluid now = cell;
@@ -47,7 +48,7 @@ void SeenFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& f
     if (here && before) {
       factor_[i] = factor(cell.density, fluid_volume[i], *here);
       approach(cell.velocity, before->velocity, factor_[i]);
-      approach(cell.pressure_gradient, before->pressure_gradient, factor_[i]);
+      approach(cell.pressure_gradient, before->pressure_gradient + cell.density * heavier, factor_[i]);
       relaxed_.smallest = std::min(relaxed_.smallest, factor_[i]);
       relaxed_.cells += factor_[i] < 1;
     }
@@ -67,8 +68,8 @@ void SeenFluid::relax(CellValues<BulkFluid>& fluid, const std::vector<double>& f
         acceleration_[i] =
             weight * continued_acceleration(parameters_.added_mass * here->solid_volume / fluid_volume[i]);
         if (!parameters_.fluid_moves)
-          cell.pressure_gradient +=
-              0.5 * (1 + ratio_) * weight * (now.pressure_gradient - before->fluid_gradient);
+          cell.pressure_gradient += 0.5 * (1 + ratio_) * weight *
+                                    (now.pressure_gradient - before->fluid_gradient - cell.density * heavier);
       }
     }
     seen.values.push_back(told);

@@ -29,6 +29,10 @@ class SeenFluid {
     parameters_.window = window;
   }
 
+  /// From the next telling on gravity is another one, by so much, m/s2: fluid and particles have it at once,
+  /// and what was told before is that before with the new weight.
+  void change_gravity(const Vec3& by) { gravity_change_ += by; }
+
   /// Velocity and pressure gradient, relaxed in place; they count as told. fluid_volume: of these cells,
   /// between the particles, m3; particles: those that will hear it. A cell whose particles were told nothing
   /// before is told the fluid as it is.
@@ -71,7 +75,8 @@ class SeenFluid {
   double factor(double density, double fluid_volume, const BulkParticles& simulated) const;
 
   Parameters parameters_;
-  double ratio_ = 1;  // of the coming window to the particles', -
+  Vec3 gravity_change_;  // since the last telling, m/s2
+  double ratio_ = 1;     // of the coming window to the particles', -
   CellValues<Cell> seen_;
   std::vector<double> factor_;        // of these, -
   std::vector<double> acceleration_;  // of these, w_a, -

@@ -271,11 +271,30 @@ TEST(ConfigurationHash, ChangesWithEveryKeyButTheRanks) {
     EXPECT_FALSE(changed(assignment)) << assignment;
 }
 
+TEST(CaseFiles, TakeATableAsItIsOrFromAFileBesideThem) {
+  const CaseFile file(plain + "gravity: {table: [[0, 0, 0, -9.81], [0.5, 2, -1e-3, -9.81]]}\n");
+  const CaseParameters inside = read_case(file.path());
+  const fs::path rows = fs::path(file.path()).parent_path() / "shake.csv";
+  std::ofstream(rows) << "# t, gx, gy, gz\r\n0,0,0,-9.81\r\n\n0.5\t2 -1e-3, -9.81  # later\n";
+  const CaseParameters outside = read_case(file.path(), {"gravity.table=shake.csv"});
+  for (const CaseParameters* c : {&inside, &outside}) {
+    ASSERT_TRUE(c->gravity);
+    ASSERT_EQ(c->gravity->rows.size(), 2u);
+    EXPECT_EQ(c->gravity->rows[1].time, 0.5);
+    EXPECT_EQ(c->gravity->rows[1].gravity.y, -1e-3);
+  }
+  EXPECT_EQ(resolved_configuration(inside), resolved_configuration(outside));
+  std::ofstream(rows) << "0 0 0 -9.81\n0.5 2 -1e-3 -9.8100001\n";
+  EXPECT_NE(configuration_hash(inside),
+            configuration_hash(read_case(file.path(), {"gravity.table=shake.csv"})));
+}
+
 TEST(CaseKeys, EachBelongsToASectionAndSaysWhatItIs) {
   for (const Key& key : case_keys()) {
     EXPECT_NE(find_section(parent_of(key.path)), nullptr) << key.path;
     EXPECT_EQ(key.doc.back(), '.') << key.path;
-    EXPECT_EQ(key.rule.unit.empty(), key.rule.form != ValueRule::Form::number) << key.path;
+    const bool numbers = key.rule.form == ValueRule::Form::number || key.rule.form == ValueRule::Form::table;
+    EXPECT_EQ(key.rule.unit.empty(), !numbers) << key.path;
   }
 }
 

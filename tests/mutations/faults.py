@@ -25,6 +25,7 @@ OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": 
                "^unit_output_due$": ["unit_output_due"]}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}
+SHAKEN, ROWS = {"^pair.shaken$": PAIR}, {"^unit_gravity_table$": ["unit_gravity_table"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 VIEW, BROWSER = {"^unit_report_view$": ["demvof"]}, {"^browser_view$": ["demvof"]}
 
@@ -142,7 +143,7 @@ FAULTS = [
     ("dem_side/forces.cpp", "sums.pressure += share * fluid.pressure_force;",
      "sums.pressure += fluid.pressure_force;", HALF),
     ("dem_side/forces.cpp", "gradients.other_impulse += step * (other + part.overdue);", "", FORCES),
-    ("dem_side/forces.cpp", "store(external[i], given + steady + constant);",
+    ("dem_side/forces.cpp", "store(external[i], given + steady + own);",
      "store(external[i], given + steady);", FORCES),
     ("dem_side/forces.cpp", "if (half_step_ && !moves) {", "if (half_step_ && moves && !moves) {", START),
     ("dem_side/deposit_rows.cpp", "std::exchange(row.fluid[k].drag_impulse, {})", "Vec3{}", STREWN),
@@ -186,4 +187,20 @@ FAULTS = [
     ("coupler/cli/reporting/view.js", "this.controls.addEventListener(\"change\", () => this.draw());", "", BROWSER),
     ("coupler/cli/reporting/view.js", "object.visible = box.checked;", "object.visible = true;", BROWSER),
     ("coupler/cli/reporting/view.js", "this.scene.remove(object);", "", BROWSER),
+    # ---- gravity of a table
+    ("coupler/exchange/gravity_table.hpp", "sum += 0.5 * (to - time) * (before + now);", "sum += (to - time) * now;", ROWS),
+    ("coupler/exchange/gravity_table.hpp", "row->time < end; ++row) add(row->time, row->gravity);", "row->time < end; ++row) {}",
+     ROWS),
+    ("coupler/exchange/seen_fluid.cpp", "before->pressure_gradient + cell.density * heavier", "before->pressure_gradient", ORDER),
+    ("foam_side/gravity.cpp", "  renew_gravity_potential(flow);", "", SHAKEN),
+    ("foam_side/gravity.cpp", "  flow.gh_reference = reference_potential(flow.g, flow.mesh);", "", SHAKEN),
+    ("foam_side/run.cpp", "bridge.follow_gravity(flow.gravity.mean(link.begin_time(), link.end_time()));",
+     "bridge.follow_gravity(flow.gravity.at(link.begin_time()));", SHAKEN),
+    ("foam_side/bridge.cpp", "if (norm(change) > 0) means_.clear();", "", SHAKEN),
+    ("foam_side/advance_clock.cpp", "set_gravity(flow, flow.gravity.mean(now, flow.time.value()));",
+     "set_gravity(flow, flow.gravity.at(now));", SHAKEN),
+    ("dem_side/run.cpp", "dem.set_gravity(parameters.gravity->mean(link.begin_time(), link.end_time()));",
+     "dem.set_gravity(parameters.gravity->at(link.begin_time()));", SHAKEN),
+    ("dem_side/forces.cpp", "constant + (weight - weight_of_script);", "constant;", SHAKEN),
+    ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
 ]

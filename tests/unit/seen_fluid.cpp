@@ -76,6 +76,23 @@ TEST(SeenFluid, GoesTowardsTheFluidFromWhatWasToldBefore) {
   }
 }
 
+// All that has changed is the weight, and all of that is told.
+TEST(SeenFluid, ComesFromWhatWasToldWithTheNewWeight) {
+  SeenFluid seen(parameters(Schedule::staggered, ExchangeScheme::conservative_implicit, true));
+  const CellValues<BulkParticles> heard{{7}, {particles()}};
+  CellValues<BulkFluid> first{{7}, {fluid(1, 100)}}, second = first, third = first;
+  seen.relax(first, {0.5 * cell_volume}, heard);
+  seen.change_gravity({3, 0, -0.5});
+  seen.change_gravity({1, 2, 0});
+  second.values[0].pressure_gradient += 1000.0 * Vec3{4, 2, -0.5};
+  third = second;
+  for (CellValues<BulkFluid>* told : {&second, &third}) {
+    seen.relax(*told, {0.5 * cell_volume}, heard);
+    ASSERT_LT(seen.relaxed().smallest, 0.5);
+    expect_near(told->values[0].pressure_gradient, {4000, 100 + 2000, -100 - 500});
+  }
+}
+
 // The particles are those of the window before, the relaxation that of the coming one.
 TEST(SeenFluid, RelaxesAsForTheWindowToCome) {
   for (const double ratio : {0.125, 1.5}) {

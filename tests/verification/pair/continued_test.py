@@ -96,6 +96,11 @@ class Continued(unittest.TestCase):
         self.check_refused(FOLDER / self._testMethodName / "parts", "coupling.window was a map: windows of their own lengths",
                            "--set", "coupling.end_time=0.04")
 
+    def test_shaken(self):
+        self.case(first_step=1e-4, sections={"gravity": {"table": [[0, 5, 0, -8.4], [0.0063, -5, 1, -9], [0.0152, 4, 0, -6],
+                                                                   [0.0249, -3, 0, -12]]}})
+        self.check_same("--set", "coupling.window={tolerance: 5e-3, shortest: 1e-4, longest: 4e-3}", bound=1e-300, windows=None)
+
     def test_order_two(self):
         self.case(first_step=1e-4, forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"added_mass": 0.5}])
         self.check_same("--set", "coupling.order=2", "--set",
