@@ -143,8 +143,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
       set_initial_porosity(flow, to_fine.void_fraction());
     }
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
-    if (norm(set_gravity(flow, flow.gravity.at(0))) > 0 || pressure_says_nothing(flow))
-      balance_pressure(flow);
+    const double window =
+        own_lengths ? static_cast<double>(range.shortest) * link.plan().steps.length : link.plan().window;
+    const bool other_gravity = norm(set_gravity(flow, flow.gravity.mean(0, window))) > 0;
+    if (other_gravity || pressure_says_nothing(flow)) balance_pressure(flow);
     record.start(flow, &first.report);
     write_fields(flow);
   }
