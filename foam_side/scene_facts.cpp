@@ -101,7 +101,7 @@ std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity)
   return fmt::format(
       "gravity.table begins with [{}, {}, {}] m/s2, constant/g and fix gravity have [{}, {}, {}]: the table "
       "has the "
-      "whole of gravity, and the run starts with its first one",
+      "whole of gravity, and the run starts with its first one (docs/warnings.md, Gravity of a table)",
       first.x, first.y, first.z, of_case.x, of_case.y, of_case.z);
 }
 

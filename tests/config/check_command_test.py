@@ -87,6 +87,17 @@ class BothPrograms(unittest.TestCase):
         self.edit("fluid/constant/g", "-9.81", "-1.62")
         self.refused(2, "gravity", "-1.62", "-9.81")
 
+    def test_a_table_without_gravity_in_it(self):
+        code, output = check(self.case, "gravity.table=[[0, 2, 0, 0]]")
+        self.assertEqual(code, 0, output)
+        self.assertIn("beware: gravity.table begins with [2, 0, 0] m/s2, constant/g and fix gravity have [0, 0, -9.81]", output)
+        code, output = check(self.case, "gravity.table=[[0, 0, 0, -9.81], [1, 2, 0, -9.81]]")
+        self.assertNotIn("gravity.table begins", output)
+
+    def test_a_table_that_no_particle_feels(self):
+        self.edit("particles/in.settling_particle", "fix             gravity", "#")
+        self.refused(2, "in.settling_particle: gravity.table needs a 'fix gravity'", settings=["gravity.table=[[0, 0, 0, -9.81]]"])
+
     def test_a_mesh_that_cannot_be_made(self):
         self.edit("fluid/system/blockMeshDict", "(10 10 32)", "(10 10 thirty)")
         self.refused(2, "blockMesh failed", "blockMeshDict")
