@@ -279,6 +279,29 @@ std::vector<std::string> Dem::moved_surfaces() const {
   return fixes;
 }
 
+bool Dem::has_surfaces() const {
+  bool found = false;
+  for_each_fix(*liggghts_,
+               [&](LAMMPS_NS::Fix& fix) { found = found || dynamic_cast<LAMMPS_NS::FixMeshSurface*>(&fix); });
+  return found;
+}
+
+std::vector<Vec3> Dem::surface_corners() const {
+  std::vector<Vec3> corners;
+  for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
+    auto* surface = dynamic_cast<LAMMPS_NS::FixMeshSurface*>(&fix);
+    if (!surface) return;
+    LAMMPS_NS::AbstractMesh& mesh = *surface->mesh();
+    for (int triangle = 0; triangle < mesh.sizeLocal(); ++triangle)
+      for (int corner = 0; corner < 3; ++corner) {
+        double place[3];
+        mesh.node_slow(triangle, corner, place);
+        corners.push_back(vec3(place));
+      }
+  });
+  return corners;
+}
+
 long Dem::inserted() const {
   long inserted = 0;
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {

@@ -110,6 +110,8 @@ class Dem {
   ParticleCensus census() const;                    // collective
   bool inserts_particles() const;                   // the script has an insertion that is not over yet
   std::vector<std::string> moved_surfaces() const;  // fixes by which one moves, or counts as moving
+  bool has_surfaces() const;                        // fix mesh/surface
+  std::vector<Vec3> surface_corners() const;        // of this rank's triangles, three for each, m
   long inserted() const;   // particles that its insertions have put in so far, all ranks
   long taken_out() const;  // particles that its outlets (fix massflow/mesh) have deleted so far
 

@@ -55,11 +55,14 @@ Output::Output(const Dem& dem, const BulkGrid& grid, const std::filesystem::path
     : dem_(dem),
       grid_(grid),
       particles_(dem.world(), folder, continued_from),
-      bulk_(dem.world(), grid, folder, continued_from) {}
+      bulk_(dem.world(), grid, folder, continued_from) {
+  if (dem.has_surfaces()) surfaces_.emplace(dem.world(), folder, continued_from);
+}
 
 void Output::write(double time, double window, const FluidForces& forces, const Averaging& averaging,
                    const std::vector<CellValues<BulkFluid>>& fluids) {
   particles_.write(time, particle_frame(dem_, forces, window));
+  if (surfaces_) surfaces_->write(time, dem_.surface_corners());
   bulk_.write(time, bulk_frame(grid_, window, averaging, fluids));
 }
 

@@ -13,7 +13,7 @@
 
 namespace demvof {
 
-/// The particles and the bulk grid as series for ParaView.
+/// The particles, the surfaces that the script makes, and the bulk grid as series for ParaView.
 class Output {
  public:
   /// continued_from: time from which an earlier run is continued, s. Collective.
@@ -29,6 +29,7 @@ class Output {
   const Dem& dem_;
   BulkGrid grid_;
   ParticleSeries particles_;
+  std::optional<SurfaceSeries> surfaces_;
   BulkSeries bulk_;
 };
 

@@ -24,9 +24,10 @@ namespace fs = std::filesystem;
 
 constexpr auto marker = "prepared.json";  // written last by a preparation
 // Everything that prepare, run and report write, and nothing else is ever removed.
-constexpr const char* outputs[] = {
-    "fluid",       "particles",    "bulk",          "fluid.log",   "prepare.log", marker,    "particles.log",
-    "history.csv", "results.json", "progress.json", "report.html", "results.csv", "restart", "earlier"};
+constexpr const char* outputs[] = {"fluid",       "particles",    "surfaces",      "bulk",
+                                   "fluid.log",   "prepare.log",  marker,          "particles.log",
+                                   "history.csv", "results.json", "progress.json", "report.html",
+                                   "results.csv", "restart",      "earlier"};
 constexpr const char* result_files[] = {"results.json", "history.csv", "progress.json"};
 
 std::string read_text(const fs::path& path) {

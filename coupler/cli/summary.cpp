@@ -97,6 +97,7 @@ std::string output_list(const std::filesystem::path& folder) {
       {"history.csv", "recorded quantities against time"},
       {"fluid", "OpenFOAM time folders"},
       {"particles/particles.pvd", "particles, for ParaView"},
+      {"surfaces/surfaces.pvd", "the script's surfaces, for ParaView"},
       {"bulk/bulk.pvd", "bulk grid, for ParaView"},
       {"fluid.log", "what OpenFOAM said"},
       {"particles.log", "what LIGGGHTS said"},

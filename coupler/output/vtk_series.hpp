@@ -67,6 +67,27 @@ class ParticleSeries {
   int count_ = 0;
 };
 
+/// surfaces/: the triangles of walls, whole in one file; a frame in which none has moved shares that of the
+/// one before.
+class SurfaceSeries {
+ public:
+  /// Collective over world.
+  SurfaceSeries(MPI_Comm world, const std::filesystem::path& folder,
+                std::optional<double> continued_from = {}, const std::string& name = "surfaces");
+  /// Collective; corners: three for each triangle that this rank owns, m. Throws std::runtime_error on all
+  /// ranks when a file cannot be written.
+  void write(double time, const std::vector<Vec3>& corners);
+
+ private:
+  MPI_Comm world_;
+  std::filesystem::path folder_;
+  std::string name_;
+  PvdIndex index_;
+  int count_ = 0;
+  std::vector<Vec3> written_;  // on rank 0: what the last file has, and its name
+  std::string file_;
+};
+
 /// What is shown of one bulk cell.
 struct BulkFrame {
   double void_fraction = 1;  // -

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -161,6 +162,30 @@ TEST(ParticleSeries, AFrameThatIsOutOfStepIsAnErrorOnAllRanks) {
   ParticleFrame frame = frame_of_this_rank();
   if (rank_ == 0) frame.radius.pop_back();
   EXPECT_THROW(series.write(0, frame), std::runtime_error);
+}
+
+TEST(SurfaceSeries, TrianglesOfAllRanksReadBackAndOneFileServesWhileNoneMoves) {
+  const fs::path out = folder("surfaces");
+  SurfaceSeries series(MPI_COMM_WORLD, out);
+  std::vector<Vec3> corners;  // rank r owns r triangles
+  for (int i = 0; i < 3 * rank_; ++i) corners.push_back(vector_of(10 * rank_ + i, 1));
+  series.write(0, corners);
+  series.write(0.1, corners);
+  for (Vec3& corner : corners) corner.z += 1;
+  series.write(0.2, corners);
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string index = text_of(out / "surfaces" / "surfaces.pvd");
+  EXPECT_NE(index.find("timestep=\"0.1\" file=\"surfaces_000000.vtp\""), std::string::npos) << index;
+  const std::string moved = ranks_ == 1 ? "surfaces_000000.vtp" : "surfaces_000002.vtp";
+  EXPECT_NE(index.find("timestep=\"0.2\" file=\"" + moved + "\""), std::string::npos) << index;
+  const auto data = read_particles(out / "surfaces" / moved);
+  ASSERT_EQ(data->GetNumberOfPolys(), ranks_ * (ranks_ - 1) / 2);
+  vtkIdType corner = 0;
+  for (int rank = 1; rank < ranks_; ++rank)
+    for (int i = 0; i < 3 * rank; ++i, ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(data->GetPoint(data->GetCell(corner / 3)->GetPointId(corner % 3))[axis],
+                  (vector_of(10 * rank + i, 1) + Vec3{0, 0, 1})[axis]);
 }
 
 TEST(BulkSeries, CellsReadBackInTheirPlaces) {

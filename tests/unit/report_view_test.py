@@ -3,6 +3,7 @@
 """What the report's 3D view shows and how it is thinned and packed, against geometry that is known; how it looks:
 tests/browser/view_test.py. Runs are those of tests/support/made_run.py: a box of 1 x 0.5 x 1 m, water below z = 0.5 m."""
 import base64
+import dataclasses
 import pathlib
 import shutil
 import sys
@@ -62,6 +63,26 @@ class Views(unittest.TestCase):
         numpy.testing.assert_allclose(found.positions, [[0.25, 0.26, 0.125], [0.75, 0.4, 0.5]])
         numpy.testing.assert_allclose(found.radii, [0.02, 0.03])
         numpy.testing.assert_allclose(found.speeds, [5, 0.1])
+
+    def test_surfaces_of_the_script_are_shown_as_far_as_the_box(self):
+        folder = write_run(self.place / "a")
+        self.assertEqual(len(space.read(folder, 0.1, 1000, 1000).walls[1]), 0)
+        (folder / "surfaces").mkdir()
+        corners = "-10 -10 0.25 10 -10 0.25 10 10 0.25 -10 -10 0.25 10 10 0.25 -10 10 0.25"  # a floor of 20 x 20 m
+        array = '<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}</DataArray>'
+        (folder / "surfaces" / "surfaces_000000.vtp").write_text(
+            '<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="6" NumberOfVerts="0" NumberOfLines="0" '
+            'NumberOfStrips="0" NumberOfPolys="2"><Points>' + array.format("Float64", "Points", 3, corners)
+            + "</Points><Polys>" + array.format("Int64", "connectivity", 1, "0 1 2 3 4 5")
+            + array.format("Int64", "offsets", 1, "3 6") + "</Polys></Piece></PolyData></VTKFile>")
+        (folder / "surfaces" / "surfaces.pvd").write_text(
+            '<VTKFile type="Collection" version="0.1"><Collection>' + "".join(
+                f'<DataSet timestep="{time}" file="surfaces_000000.vtp"/>' for time in (0, 0.1, 0.2)) + "</Collection></VTKFile>")
+        spaces = {time: space.read(folder, time, 1000, 1000) for time in (0.1, 0.2)}
+        self.assertAlmostEqual(area(spaces[0.1].walls), (1 + 0.1) * (0.5 + 0.1), places=6)
+        data = view.encoded(spaces)
+        self.assertEqual(len(data["shapes"]), 2)  # edges and walls of both times
+        numpy.testing.assert_allclose([data["lower"], data["upper"]], [[-0.05, -0.05, 0], [1.05, 0.55, 1]], atol=1e-6)
 
     def test_one_fluid_has_no_surface_and_wets_no_walls(self):
         folder = write_run(self.place / "a")
@@ -139,11 +160,14 @@ class Views(unittest.TestCase):
 
     def test_the_page_is_bounded(self):
         surface = space.arrays(space.decimated(sphere(60000), view.TRIANGLES))
+        wall = space.arrays(space.decimated(sphere(60000), space.WALLS))
         random = numpy.random.default_rng(1)
         full = space.Space(-numpy.ones(3), numpy.ones(3), (2, 1), surface, 60000, surface,
-                           (numpy.zeros((0, 3)), numpy.zeros((0, 2), int)), random.uniform(-1, 1, (view.PARTICLES, 3)),
+                           (numpy.zeros((0, 3)), numpy.zeros((0, 2), int)), wall, random.uniform(-1, 1, (view.PARTICLES, 3)),
                            numpy.full(view.PARTICLES, 0.01), random.uniform(0, 1, view.PARTICLES), 500000)
-        spaces = {0.1 * i: full for i in range(view.ALL_PARTICLES // view.PARTICLES)}
+        spaces = {0.1 * i: dataclasses.replace(full) for i in range(view.ALL_PARTICLES // view.PARTICLES)}
+        for i, here in spaces.items():  # that move: each time its own
+            here.walls = (wall[0] * (1 - 0.1 * i), wall[1])
         self.assertLess(len(view.figure(spaces)) + len(view.scripts()), 6e6)
         self.assertIn("500000 particles, thinned to 20000", view.note(full))
 

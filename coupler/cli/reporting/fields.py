@@ -185,27 +185,34 @@ def cells(array, points, axes):
     return [corners[connectivity[a:b]] for a, b in zip(offsets[:-1], offsets[1:])]
 
 
-def particle_arrays(folder, time):
-    """Arrays by name, "position" among them, of the series' output at that time, rows sorted by the particles' id if they
-    have one; none if there is no such output or no particle in it."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+def series_output(folder, name, time):
+    """VTK's data of a series of a run, "particles" or "surfaces", at that time; None if there is no such output or no
+    point in it."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
-    index = folder / "particles" / "particles.pvd"
+    index = folder / name / f"{name}.pvd"
     if not index.is_file():
-        return {}
+        return None
     files = {float(e.get("timestep")): e.get("file") for e in xml.etree.ElementTree.parse(index).iter("DataSet")}
     nearest = min(files, key=lambda t: abs(t - time), default=None)
     if nearest is None or not math.isclose(nearest, time, rel_tol=1e-6, abs_tol=1e-9):
-        return {}
+        return None
     path = index.parent / files[nearest]
     if not path.is_file():
-        return {}
+        return None
     reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     reader.Update()
-    data = reader.GetOutput()
-    if data.GetNumberOfPoints() == 0:
+    return reader.GetOutput() if reader.GetOutput().GetNumberOfPoints() > 0 else None
+
+
+def particle_arrays(folder, time):
+    """Arrays by name, "position" among them, of the particles' output at that time, rows sorted by the particles' id if
+    they have one; none if there is no such output or no particle in it."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    data = series_output(folder, "particles", time)
+    if not data:
         return {}
     values = data.GetPointData()
     arrays = {values.GetArrayName(i): vtk_to_numpy(values.GetArray(i)) for i in range(values.GetNumberOfArrays())}

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy
 
-from reporting.fields import Fluid, answer, in_own_process, particle_arrays, upward
+from reporting.fields import Fluid, answer, in_own_process, particle_arrays, series_output, upward
 from reporting.run import read_gravity
 
+WALLS = 5000  # triangles
 EDGE = 30  # degrees between two faces of the boundary from which their edge is drawn
 
 
@@ -27,6 +28,7 @@ class Space:
     surface_triangles: int    # before thinning
     wetted: tuple             # points, triangles n x 3: the domain's boundary where it is above 0.5
     edges: tuple              # points, lines n x 2: sharp edges of the domain's boundary
+    walls: tuple              # points, triangles: surfaces of the script, as far as the box and a twentieth beyond
     positions: numpy.ndarray  # of the particles, m
     radii: numpy.ndarray      # m
     speeds: numpy.ndarray     # m/s
@@ -50,7 +52,9 @@ def space(folder, time, most_triangles, most_particles):
     wetted = above_half(boundary, liquid) if count and boundary.GetPointData().GetArray(liquid) else None
     positions, radii, speeds, particles = thinned(particle_arrays(folder, time), most_particles)
     bounds = numpy.array(mesh.GetBounds())
-    return {"lower": bounds[0::2], "upper": bounds[1::2], "vertical": upward(read_gravity(folder)),
+    lower, upper = bounds[0::2], bounds[1::2]
+    walls = decimated(within(series_output(folder, "surfaces", time), lower, upper), WALLS)
+    return {"lower": lower, "upper": upper, "walls": arrays(walls), "vertical": upward(read_gravity(folder)),
             "surface": arrays(decimated(found, most_triangles)), "surface_triangles": count,
             "wetted": arrays(decimated(wetted, most_triangles)), "edges": arrays(sharp_edges(boundary), 2),
             "positions": positions, "radii": radii, "speeds": speeds, "particles": particles}
@@ -126,6 +130,25 @@ def above_half(boundary, liquid):
     clip = vtkClipPolyData()
     clip.SetValue(0.5)
     return output(clip, triangles)
+
+
+def within(surface, lower, upper):
+    """Of a surface what is in that box and a twentieth of its longest side around it: a floor may be far larger."""
+    from vtkmodules.vtkCommonDataModel import vtkPlane
+    from vtkmodules.vtkFiltersCore import vtkClipPolyData
+
+    beyond = (upper - lower).max() / 20
+    for corner, inwards in ((lower - beyond, 1), (upper + beyond, -1)):
+        for axis in range(3):
+            if surface is None or surface.GetNumberOfPolys() == 0:
+                return None
+            plane = vtkPlane()
+            plane.SetOrigin(*corner)
+            plane.SetNormal(*(inwards * numpy.eye(3)[axis]))
+            clip = vtkClipPolyData()
+            clip.SetClipFunction(plane)
+            surface = output(clip, surface)
+    return surface
 
 
 def sharp_edges(boundary):

@@ -127,8 +127,9 @@
 
       this.boxes = {};
       const shown = element("span", bar, {className: "group"});
-      for (const [name, title] of [["surface", "surface"], ["wetted", "wetted walls"], ["particles", "particles"]]) {
-        if (!this.data.times.some(moment => moment[name])) continue;
+      for (const [name, title] of [["surface", "surface"], ["wetted", "wetted walls"],
+                                   ["particles", "particles"], ["walls", "surfaces of the script"]]) {
+        if (!this.data.times.some(moment => moment[name] !== null)) continue;
         const label = element("label", shown);
         this.boxes[name] = element("input", label, {type: "checkbox", checked: true, onchange: () => this.draw()});
         label.append(" " + title);
@@ -213,7 +214,9 @@
         }
       const style = getComputedStyle(this.figure);
       this.scene.background = new THREE.Color(style.getPropertyValue("--stage").trim());
-      this.layers = {edges: [this.edges(moment.edges, style.getPropertyValue("--edge").trim())]};
+      const grey = style.getPropertyValue("--edge").trim(), shapes = this.data.shapes;
+      this.layers = {edges: [this.edges(shapes[moment.edges], grey)]};
+      if (moment.walls !== null) this.layers.walls = [this.walls(shapes[moment.walls], grey)];
       if (moment.particles) this.layers.particles = [this.spheres(moment.particles)];
       if (moment.surface) this.layers.surface = this.surface(moment.surface);
       if (moment.wetted) this.layers.wetted = [this.wetted(moment.wetted)];
@@ -249,6 +252,15 @@
         {color: WATER, transparent: true, opacity: 0.13, depthWrite: false, side: THREE.DoubleSide}));
       glass.renderOrder = 3;
       return glass;
+    }
+
+    walls(part, colour) {
+      const geometry = this.mesh(part);
+      geometry.computeVertexNormals();
+      const walls = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial(
+        {color: colour, transparent: true, opacity: 0.45, depthWrite: false, side: THREE.DoubleSide}));
+      walls.renderOrder = 4;
+      return walls;
     }
 
     spheres(part) {

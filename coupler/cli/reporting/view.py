@@ -33,7 +33,8 @@ ALL_PARTICLES, PARTICLES = 120000, 20000
 LINES = 20000                              # of the domain's edges; a boundary that has more is shown as its box
 
 HINT = ("Drag: turn; with the right button: move; wheel after a click into the view: zoom. Blue: where the liquid fraction is "
-        "0.5; paler: walls that the liquid wets. Particles have their diameters, or 1.5 px.")
+        "0.5; paler: walls that the liquid wets; grey: surfaces of the script. "
+        "Particles have their diameters, or 1.5 px.")
 STYLE = """
 .view { --stage: #ffffff; --edge: #8a949e; max-width: 900px; }
 @media (prefers-color-scheme: dark) { .view { --stage: #2b3238; --edge: #9aa5af; } }
@@ -93,8 +94,9 @@ def read_spaces(run, views):
 def encoded(spaces):
     """What view.js reads."""
     everything = list(spaces.values())
-    lower = numpy.min([s.lower for s in everything] + [s.positions.min(axis=0) for s in everything if s.particles], axis=0)
-    upper = numpy.max([s.upper for s in everything] + [s.positions.max(axis=0) for s in everything if s.particles], axis=0)
+    places = [points for s in everything for points in (s.lower[None], s.upper[None], s.positions, s.walls[0]) if len(points)]
+    lower = numpy.min([points.min(axis=0) for points in places], axis=0).astype(float)
+    upper = numpy.max([points.max(axis=0) for points in places], axis=0).astype(float)
     size = (upper - lower).max()
     largest = max((s.radii.max() for s in everything if s.particles), default=None)
     fastest = max((s.speeds.max() for s in everything if s.particles), default=None)
@@ -105,18 +107,27 @@ def encoded(spaces):
     def cells(part):
         return {"points": points(part[0]), "cells": packed(part[1], "<u2")} if len(part[1]) else None
 
+    shapes = []  # most stay from time to time: a moment names them by their place here
+
+    def shape(part):
+        packed_cells = cells(part)
+        if packed_cells and packed_cells not in shapes:
+            shapes.append(packed_cells)
+        return shapes.index(packed_cells) if packed_cells else None
+
     def moment(time, here):
         particles = {"positions": points(here.positions), "radii": packed(here.radii / largest, "<u2", 65535),
                      "speeds": packed(here.speeds / max(fastest, 1e-12), "<u1", 255)} if here.particles else None
         edges = here.edges if 0 < len(here.edges[1]) <= LINES else box(here.lower, here.upper)
-        return {"time": time, "edges": cells(edges), "surface": cells(here.surface), "wetted": cells(here.wetted),
-                "particles": particles, "note": note(here)}
+        return {"time": time, "edges": shape(edges), "walls": shape(here.walls), "surface": cells(here.surface),
+                "wetted": cells(here.wetted), "particles": particles, "note": note(here)}
 
     # Without the ends of the colours, which would not be seen on black or white.
+    moments = [moment(time, here) for time, here in spaces.items()]
     palette = (255 * figures.SPEED(numpy.linspace(0.1, 0.95, 256))[:, :3]).round()
     return {"lower": lower.tolist(), "upper": upper.tolist(), "vertical": everything[0].vertical,
             "largest": largest, "fastest": fastest, "colours": packed(palette, "<u1"),
-            "times": [moment(time, here) for time, here in spaces.items()]}
+            "shapes": shapes, "times": moments}
 
 
 def packed(array, kind, steps=1):

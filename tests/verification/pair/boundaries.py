@@ -9,6 +9,7 @@ import numpy
 from box_case import BoxCase, Cyclic, Inlet, Open, Outlet, Particle, Slip, Wall, momentum_of_everything, particle_states, scratch
 from box_fields import output_times, vector_field
 from record import Record
+from reporting.fields import series_output
 
 DEMVOF = sys.argv[1]
 RECORD = Record("boundaries", "Boundaries",
@@ -127,6 +128,11 @@ def slanted_floor():
     state = particle_states(run.folder)
     normal = numpy.array([-slope, 0, 1]) / numpy.hypot(slope, 1)
     height = state["position"] @ normal - diameter / 2
+    written = series_output(run.folder, "surfaces", case.end_time)
+    written = sorted(written.GetPoint(i) for i in range(written.GetNumberOfPoints()))
+    given = sorted(corners[i] for i in (0, 1, 2, 0, 2, 3))
+    RECORD.at_most("slanted STL floor: corners of its triangles, as the run wrote them", numpy.abs(numpy.subtract(written, given)).max(),
+                   1e-16, "m")
     RECORD.at_most("slanted STL floor: particles lost", run.results["particles"]["lost"], 0)
     RECORD.at_most("slanted STL floor: solid volume error, bulk grid and fine mesh",
                    run.number("conservation.solid_volume"), 6e-14)
