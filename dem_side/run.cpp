@@ -132,8 +132,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   }
 
   run_stage().set("first exchange");
-  averaging.set_open_shares(link.open_shares());
-  averaging.set_walls(link.walls());
+  averaging.set_openings(link.openings());
   if (plan.fluids > 1) averaging.see(link.surface());
   const auto surface_at_particles = [&] {
     return averaging.surface_at(positions(dem.particles()), radii(dem.particles()));
@@ -184,6 +183,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
         averaging.see(fluid.surface);
         felt.surface = surface_at_particles();
       }
+      if (fluid.openings) averaging.set_openings(*fluid.openings);  // for what they do in this window
       forces.begin_window(felt, window);
       for (int k = 0; k < plan.fluids && knows_sizes(parameters.forces.drag); ++k)
         forces.tell_sizes(k, sizes_around(dem.particles(), forces, k, averaging.in(k)));

@@ -20,20 +20,25 @@
 namespace demvof {
 namespace {
 
-/// Void fraction at the two ends of an alpha step, in the form of the "rho" that MULES asks for.
+/// Void fraction at the two ends of an alpha step, in the form of the "rho" that MULES asks for. The volume
+/// of fluid in a cell changes linearly through a step, and so does the cell's.
 class StepPorosity {
  public:
   struct Start {
     const scalarField& values;
     const scalarField& field() const { return values; }
   };
-  /// The part from fraction a to fraction b of a step that goes from start to end.
-  StepPorosity(const scalarField& start, const scalarField& end, double a, double b)
-      : start_((1 - a) * start + a * end), end_((1 - b) * start + b * end) {}
+  /// The part from fraction a to fraction b of the flow's present step.
+  StepPorosity(const Flow& flow, const volScalarField& eps, double a, double b)
+      : start_(at(flow, eps, a)), end_(at(flow, eps, b)) {}
   const scalarField& field() const { return end_; }
   Start oldTime() const { return {start_}; }
 
  private:
+  static scalarField at(const Flow& flow, const volScalarField& eps, double part) {
+    const scalarField from((1 - part) * volumes_before(flow)), to(part * flow.mesh.V().field());
+    return (from * eps.oldTime().primitiveField() + to * eps.primitiveField()) / (from + to);
+  }
   scalarField start_, end_;
 };
 
@@ -182,8 +187,8 @@ tmp<surfaceScalarField> advance_alpha_in_parts(Flow& flow, const Carrier& carrie
 void carry_void_fraction(Flow& flow) {
   volScalarField& eps = flow.porosity->eps;
   const tmp<volScalarField> divergence = fvc::div(flow.phi);
-  eps.primitiveFieldRef() =
-      eps.oldTime().primitiveField() - flow.time.deltaTValue() * divergence().primitiveField();
+  eps.primitiveFieldRef() = eps.oldTime().primitiveField() * volumes_before(flow) / flow.mesh.V().field() -
+                            flow.time.deltaTValue() * divergence().primitiveField();
   eps.correctBoundaryConditions();
 }
 
@@ -206,8 +211,7 @@ tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScala
     follow_alpha(flow);
   }
   return advance_alpha_in_parts(flow, {phi, phi},
-                                [&start = eps.oldTime().primitiveField(), &end = eps.primitiveField()](
-                                    double a, double b) { return StepPorosity(start, end, a, b); });
+                                [&](double a, double b) { return StepPorosity(flow, eps, a, b); });
 }
 
 /// Share of the step's end in the flux that carries alpha: 1 for Euler, 1/2 for Crank-Nicolson without

@@ -40,6 +40,7 @@ Bridge::Bridge(Flow& flow, const CaseParameters& parameters, const BulkGrid& gri
       world_(world),
       window_(parameters.coupling.window),
       cut_(flow.mesh, parameters.coupling.mapping, grid, partition, world),
+      openings_(cut_),
       surface_(flow, cut_),
       fluid_to_bulk_(flow, cut_, surface_, parameters.forces, parameters.coupling.sharing),
       particles_to_fine_(flow, cut_, surface_, parameters.coupling),

@@ -8,6 +8,7 @@
 #include "coupler/exchange/window_rule.hpp"
 #include "foam_side/bulk_cut.hpp"
 #include "foam_side/fluid_to_bulk.hpp"
+#include "foam_side/openings_to_bulk.hpp"
 #include "foam_side/particles_to_fine.hpp"
 
 namespace demvof {
@@ -23,6 +24,8 @@ class Bridge {
   const BulkCut& cut() const { return cut_; }
   SurfaceToBulk& surface_to_bulk() { return surface_; }
   const SurfaceToBulk& surface_to_bulk() const { return surface_; }
+  OpeningsToBulk& openings_to_bulk() { return openings_; }
+  const OpeningsToBulk& openings_to_bulk() const { return openings_; }
   const FluidToBulk& fluid_to_bulk() const { return fluid_to_bulk_; }
   ParticlesToFine& particles_to_fine() { return particles_to_fine_; }
 
@@ -105,6 +108,7 @@ class Bridge {
   Vec3 tension_;     // in this window, this rank, N s
   Vec3 unclaimed_;   // what the pressure left to particles that feel none, likewise
   BulkCut cut_;
+  OpeningsToBulk openings_;
   SurfaceToBulk surface_;
   FluidToBulk fluid_to_bulk_;
   ParticlesToFine particles_to_fine_;

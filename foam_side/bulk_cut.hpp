@@ -24,7 +24,10 @@ class BulkCut {
   /// cells: active from now on, of those owned by this rank.
   void activate(const std::vector<CellId>& cells);
 
+  const Foam::fvMesh& mesh() const { return mesh_; }
   const BulkGrid& grid() const { return grid_; }
+  const BulkPartition& partition() const { return partition_; }
+  MPI_Comm world() const { return world_; }
   Mapping to_bulk() const { return mapping_.to_bulk; }
   const Remap& remap() const { return *remap_; }
   /// Bulk cells that this rank's fine cells touch, and the way to their owners.
@@ -35,9 +38,6 @@ class BulkCut {
   bool has_profiles() const { return has_profiles_; }
   /// A bulk cell's particles are told another velocity than the mean of its subcells.
   bool shifts_velocity() const { return has_profiles_ || interpolates(mapping_.to_bulk); }
-
-  /// Bulk cells owned by this rank that the mesh does not fill, and the mesh's share in their volume.
-  CellValues<double> open_shares() const;
 
  private:
   void find_active_subcells();

@@ -22,6 +22,7 @@ namespace {
 /// The rate that the flux being solved has to serve: it moves alpha again in this step if an outer
 /// corrector follows, otherwise in the next one.
 tmp<scalarField> rate_to_serve(const Flow& flow) {
+  if (flow.porosity->swept) return prescribed_growth(flow);
   if (flow.pimple.finalIter()) return wanted_porosity_rate(flow);
   const Porosity& porosity = *flow.porosity;
   return (porosity.goal.field() - porosity.eps.oldTime().primitiveField()) / flow.time.deltaTValue();
@@ -67,9 +68,9 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
     at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
     if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
   }
-  fvc::makeRelative(through, flow.U);
+  make_relative(flow, through);
   Foam::adjustPhi(through, flow.U, flow.p_rgh);
-  fvc::makeAbsolute(through, flow.U);
+  make_absolute(flow, through);
   forAll(flow.mesh.boundary(), patch) if (!given(patch))
           flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
 }
@@ -145,6 +146,8 @@ void correct_pressure(Flow& flow) {
     last = flow.pimple.finalInnerIter();
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, flow.p_rgh) == fvc::div(phiHbyA));
     if (flow.porosity) equation.source() += flow.mesh.V().field() * rate_to_serve(flow);
+    if (flow.porosity && flow.porosity->swept)
+      equation.source() -= flow.mesh.V().field() * fvc::div(*flow.porosity->swept)().primitiveField();
     equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
     equation.solve(flow.mesh.solver(flow.p_rgh.select(flow.pimple.finalInnerIter())));
     if (!flow.pimple.finalNonOrthogonalIter()) continue;
@@ -160,7 +163,7 @@ void correct_pressure(Flow& flow) {
     if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
   }
   update_face_velocity(flow);
-  make_relative(flow);
+  make_relative(flow, flow.phi);
   if (flow.source && last) note_open_momentum(flow, h);
 }
 

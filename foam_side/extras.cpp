@@ -87,9 +87,10 @@ void require_what_particles_bear(const Flow& flow) {
         "remove the file, or run without particles");
   if (flow.pimple.frozenFlow())
     refuse("PIMPLE: frozenFlow: a flow that is given takes no momentum from particles: no");
-  if (extras(flow).motion != MeshMotion::never)
-    refuse("constant/dynamicMeshDict: " + flow.mesh.type() +
-           ": a mesh that moves is not done with particles; without them it is");
+  if (extras(flow).motion == MeshMotion::each_corrector)
+    refuse("PIMPLE: moveMeshOuterCorrectors: with particles the mesh moves once a step: no");
+  if (flow.scene.mesh_moves && (flow.ghost || flow.scene.interchange == PhaseInterchange::replacement))
+    refuse("coupling.phase_interchange: on a mesh that moves porous or none");
 }
 
 }  // namespace

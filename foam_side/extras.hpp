@@ -50,14 +50,12 @@ struct AdvectionControls {
 /// of open_flow, so that `demvof check` finds it.
 void refuse_what_is_not_done(const Flow& flow);
 
-/// In the first corrector of a step, or in each: points move, and the flux becomes that of the moved mesh.
+/// Without particles, in the first corrector of a step, or in each: points move, and the flux becomes that of
+/// the moved mesh.
 void move_mesh(Flow& flow);
 
 /// p, and in a closed box the level of p_rgh, from p_rgh: at the end of a step, and before bodies that float
 /// are moved by the pressure of the last corrector.
 void update_total_pressure(Flow& flow);
-
-/// phi from its value in space to that relative to the faces, which then carries alpha.
-void make_relative(Flow& flow);
 
 }  // namespace demvof

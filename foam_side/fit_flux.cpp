@@ -52,9 +52,9 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
                            dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) {  // what the walls displace where they move is not to be made up for
-    fvc::makeRelative(flux, flow.U);
+    if (!flow.porosity) make_relative(flow, flux);
     Foam::adjustPhi(flux, flow.U, potential);
-    fvc::makeAbsolute(flux, flow.U);
+    if (!flow.porosity) make_absolute(flow, flux);
   }
 
   while (flow.pimple.correctNonOrthogonal()) {

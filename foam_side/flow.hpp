@@ -27,6 +27,8 @@
 
 namespace demvof {
 
+constexpr double negligible_change = 1e-13;  // of a void fraction in one step
+
 /// Void fraction. eps is what the flux has carried: with it alpha stays bounded and liquid is kept to
 /// round-off, however loosely the pressure is solved. goal is what the particles prescribe; eps
 /// follows it to the tolerance of the pressure solver, because continuity asks for the difference back.
@@ -40,6 +42,8 @@ struct Porosity {
   volVectorField::Internal solid_velocity;  // their mean v in a cell, m/s; 0 where there are none
   surfaceScalarField along;                 // v.S, m3/s
   surfaceScalarField carried;               // flux of a fluid that goes with them, and makes room, m3/s
+  // What of the fluid the faces of a mesh that moves sweep over in the step (move_porosity.cpp), m3/s.
+  std::unique_ptr<surfaceScalarField> swept;
 };
 
 /// Force of the particles on the fluid, F = force + coefficient (reference - u), held over a window.
@@ -166,6 +170,10 @@ bool advance_clock(Flow& flow);  // false at the window's end, or without window
 bool refine_mesh(Flow& flow, const std::function<void()>& before = {});
 void renew_porosity(Flow& flow, const scalarField& begin, const scalarField& end);  // with particles
 void settle_flux(Flow& flow);
+/// On a mesh that moves in place of these: its points, with particles on it.
+void move_under_particles(Flow& flow);
+/// Then, with porosity: what the particles prescribe at begin and end of the step for the moved cells, -.
+void move_porosity(Flow& flow, const scalarField& begin, const scalarField& end);
 void update_porosity(Flow& flow);
 bool outer_corrector(Flow& flow);  // while true: the next four
 void advect_interface(Flow& flow);
@@ -225,6 +233,16 @@ tmp<surfaceScalarField> face_void_fraction(const volScalarField& eps);
 
 /// Mobility for fit_flux from density, void fraction and drag, m3 s/kg.
 tmp<surfaceScalarField> projection_mobility(const Flow& flow);
+
+/// d(eps V)/dt per volume, as the particles prescribe it for the present step of a mesh that moves, 1/s.
+tmp<scalarField> prescribed_growth(const Flow& flow);
+
+/// Volumes at the begin of the step, m3.
+const scalarField& volumes_before(const Flow& flow);
+
+/// Between a flux in space and that through the faces, which may move.
+void make_relative(const Flow& flow, surfaceScalarField& flux);
+void make_absolute(const Flow& flow, surfaceScalarField& flux);
 
 /// Rate at which the void fraction has to grow to be where it should be after the coming step, 1/s.
 tmp<scalarField> wanted_porosity_rate(const Flow& flow);

@@ -5,7 +5,8 @@
 //   = 1 sigma kappa grad a    face values of the momentum equation, reconstructed in the cell as grad p is:
 //   where
 //                         they balance (a drop at rest), a particle feels neither
-//   Du/Dt                 (u - u_0)/dt + u.grad u, u_0 one time step before
+//   Du/Dt                 (u - u_0)/dt + (u - u_c).grad u, u_0 one time step before in the same cell, which
+//                         moves with u_c
 //   curl u                from the same grad u
 //
 // mu_eff viscosity of the mixture with turbulence, Pa s; sigma surface tension, N/m; kappa curvature, 1/m; a
@@ -38,7 +39,12 @@ Foam::vectorField curl(const Foam::tensorField& gradient) {
 
 Foam::vectorField acceleration(const Flow& flow, const Foam::tensorField& gradient) {
   const Foam::vectorField& u = flow.U.primitiveField();
-  return (u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue() + (u & gradient);
+  const Foam::vectorField change((u - flow.U.oldTime().primitiveField()) / flow.time.deltaTValue());
+  if (!flow.mesh.moving()) return change + (u & gradient);
+  const surfaceScalarField& swept = flow.mesh.phi();
+  const Foam::vectorField cell_velocity =
+      (*flow.reconstruct)([&](const auto& at, label) { return at(swept); });
+  return change + ((u - cell_velocity) & gradient);
 }
 
 }  // namespace

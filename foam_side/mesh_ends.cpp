@@ -10,6 +10,7 @@
 #include "coupler/base/errors.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "movingWallVelocityFvPatchVectorField.H"
 #include "processorCyclicPolyPatch.H"
 #include "wallPolyPatch.H"
 
@@ -101,6 +102,13 @@ void require_same_kind(int axis, bool periodic, const Ends& ends) {
         name, axis + 1));
 }
 
+/// A wall that the mesh takes along has this velocity, or fluid would pass through it.
+bool has_wall_that_moves(const Flow& flow) {
+  for (const Foam::fvPatchVectorField& patch : flow.U.boundaryField())
+    if (Foam::isA<Foam::movingWallVelocityFvPatchVectorField>(patch)) return true;
+  return false;
+}
+
 bool has_wall_with_velocity(const Flow& flow) {
   volVectorField U("velocityAtStart", flow.U);
   U.correctBoundaryConditions();  // the velocity that a condition gives, whatever 'value' says
@@ -156,13 +164,15 @@ void require_same_motion(const Flow& flow, const std::vector<std::string>& moved
         "fluid moves: the particles would be pushed through a fluid that stands still. A wall that moves "
         "along "
         "itself, as a drum about its axis, needs its velocity in the fluid case's U (rotatingWallVelocity, "
-        "fixedValue); any other motion is not done with particles: take the fix out of the script",
+        "fixedValue); for any other motion the fluid's mesh has to move (constant/dynamicMeshDict), or take "
+        "the "
+        "fix out of the script",
         moved.front()));
-  if (moved.empty() && mesh_moves)
+  if (moved.empty() && mesh_moves && has_wall_that_moves(flow))
     throw InputError(
-        "foam_side and dem_side do not agree: the fluid's mesh moves (constant/dynamicMeshDict), but no "
-        "surface of the "
-        "script does: move the same walls there with fix move/mesh");
+        "foam_side and dem_side do not agree: walls of the fluid's mesh move (constant/dynamicMeshDict, "
+        "movingWallVelocity), but no surface of the script does: move the same walls there with fix "
+        "move/mesh");
 }
 
 }  // namespace demvof

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces that move, without particles. phi is known in space from the pressure, and has to be known relative
+// Faces that move. phi is known in space from the pressure, and has to be known relative
 // to the faces to carry alpha:
 //
 //   phi = (u - u_f).S,   u_f.S dt = volume that the face sweeps in a step
 //
 // The swept volumes add up to the change of V, so that alpha = 1 stays 1. With Crank-Nicolson u_f is that at
 // the end of the step (fvc::meshPhi), as u is. On the moved mesh the flux is the face velocity's, made
-// continuous by a potential as in interFoam, if PIMPLE's correctPhi says so.
+// continuous by a potential as in interFoam, if PIMPLE's correctPhi says so. With a void fraction:
+// move_porosity.cpp.
 
 #include "foam_side/extras.hpp"
 
@@ -45,24 +46,51 @@ tmp<surfaceScalarField> last_answer(const Flow& flow) {
                                  dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
 }
 
+bool move_points(Flow& flow) {
+  flow.mesh.update();
+  if (!flow.mesh.changing()) return false;
+  renew_geometry(flow);
+  return true;
+}
+
+void fit_flux_to_moved_mesh(Flow& flow) {
+  flow.phi = flow.mesh.Sf() & *flow.face_velocity;
+  renew_given_flux(flow);
+  fit_flux(flow, last_answer(flow), nullptr);
+  make_relative(flow, flow.phi);
+  flow.mixture.correct();
+}
+
 }  // namespace
 
 void move_mesh(Flow& flow) {
   if (!is_due(flow)) return;
   if (!flow.pimple.firstIter()) update_total_pressure(flow);
-  flow.mesh.update();
-  if (!flow.mesh.changing()) return;
-  renew_geometry(flow);
-  if (!flow.pimple.dict().lookupOrDefault("correctPhi", true)) return;
-  flow.phi = flow.mesh.Sf() & *flow.face_velocity;
-  renew_given_flux(flow);
-  fit_flux(flow, last_answer(flow), nullptr);
-  make_relative(flow);
-  flow.mixture.correct();
+  if (move_points(flow) && flow.pimple.dict().lookupOrDefault("correctPhi", true))
+    fit_flux_to_moved_mesh(flow);
 }
 
-void make_relative(Flow& flow) {
-  fvc::makeRelative(flow.phi, flow.U);
+void move_under_particles(Flow& flow) {
+  const bool moved = move_points(flow);
+  if (flow.mesh.topoChanging())
+    FatalErrorInFunction << "constant/dynamicMeshDict: " << flow.mesh.type()
+                         << ": with particles points may move, but not come and go"
+                         << Foam::exit(Foam::FatalError);
+  if (moved && !flow.porosity) fit_flux_to_moved_mesh(flow);
+}
+
+void make_relative(const Flow& flow, surfaceScalarField& flux) {
+  if (!flow.porosity)
+    fvc::makeRelative(flux, flow.U);
+  else if (flow.porosity->swept)
+    flux -= *flow.porosity->swept;
+}
+
+void make_absolute(const Flow& flow, surfaceScalarField& flux) {
+  if (!flow.porosity)
+    fvc::makeAbsolute(flux, flow.U);
+  else if (flow.porosity->swept)
+    flux += *flow.porosity->swept;
 }
 
 }  // namespace demvof

@@ -22,8 +22,6 @@
 namespace demvof {
 namespace {
 
-constexpr double negligible_change = 1e-13;  // of a void fraction in one step
-
 /// A box without a pressure boundary is full of incompressible fluid and particles.
 void refuse_change_of_closed_volume(const Flow& flow) {
   if (!flow.p_rgh.needReference()) return;
@@ -93,6 +91,7 @@ void set_porosity_target(Flow& flow, const scalarField& eps) {
   Porosity& porosity = *flow.porosity;
   porosity.rate.field() = (eps - porosity.goal.field()) / (flow.clock.window_end - flow.time.value());
   refuse_change_of_closed_volume(flow);
+  if (flow.scene.mesh_moves) return;  // each step fits its own
   if (follow_solid(flow))
     flow.phi = flow.velocity_flux ? flux_of(flow, *flow.velocity_flux)
                                   : flux_of(flow, flow.mesh.Sf() & *flow.face_velocity);
@@ -121,7 +120,7 @@ void follow_surface(Flow& flow, const scalarField& eps) {
 }
 
 void update_porosity(Flow& flow) {
-  if (!flow.porosity) return;
+  if (!flow.porosity || flow.scene.mesh_moves) return;
   flow.porosity->eps.oldTime();  // kept here, before anything of this step changes eps
   flow.porosity->goal.field() += flow.porosity->rate.field() * flow.time.deltaTValue();
 }

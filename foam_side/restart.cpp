@@ -225,15 +225,34 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
                         {"solid_volume_before", as_json(fluid.solid_volume_before)},
                         {"seen", as_json(fluid.seen)},
                         {"owed_pressure", as_json(fluid.owed_pressure)}});
+  const OpeningsToBulk::State& openings = bridge.openings_to_bulk().state();
   const json state = {{"flow", flow_state(flow, forces)},
                       {"exchange", exchange},
                       {"surface", as_json(bridge.surface_to_bulk().seen())},
+                      {"openings",
+                       {{"shares", as_json(openings.told.shares)},
+                        {"walls", as_json(openings.told.walls)},
+                        {"shares_of_mesh", as_json(openings.shares)}}},
                       {"books", record.books()},
                       {"window_steps", {steps.last, steps.next}}};
   const std::vector<std::uint8_t> bytes = json::to_cbor(state);
   const fs::path path = file_of_rank(run, window);
   fs::create_directories(path.parent_path());
   write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
+}
+
+/// Reads from the state that this rank has written.
+template <class Read>
+auto read_part(const fs::path& run, long window, const Read& read) {
+  const fs::path path = file_of_rank(run, window);
+  try {
+    std::ifstream stream(path, std::ios::binary);
+    return read(json::from_cbor(stream));
+  } catch (const json::exception& error) {
+    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+  }
 }
 
 }  // namespace
@@ -282,21 +301,21 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
 }
 
 CellValues<BulkSurface> read_seen_surface(const fs::path& run, long window) {
-  const fs::path path = file_of_rank(run, window);
-  try {
-    std::ifstream stream(path, std::ios::binary);
-    return cell_values<BulkSurface>(json::from_cbor(stream).at("surface"));
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
-  }
+  return read_part(run, window,
+                   [](const json& state) { return cell_values<BulkSurface>(state.at("surface")); });
+}
+
+OpeningsToBulk::State read_openings(const fs::path& run, long window) {
+  return read_part(run, window, [](const json& state) -> OpeningsToBulk::State {
+    const json& openings = state.at("openings");
+    return {{cell_values<double>(openings.at("shares")), cell_values<BulkWalls>(openings.at("walls"))},
+            cell_values<double>(openings.at("shares_of_mesh"))};
+  });
 }
 
 WindowSteps read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge,
                                RunRecord& record, const ParticleReport& particles) {
-  const fs::path path = file_of_rank(run, window);
-  try {
-    std::ifstream stream(path, std::ios::binary);
-    const json state = json::from_cbor(stream);
+  return read_part(run, window, [&](const json& state) -> WindowSteps {
     std::vector<Bridge::State> exchange;
     for (const json& fluid : state.at("exchange"))
       exchange.push_back(
@@ -309,11 +328,7 @@ WindowSteps read_fluid_restart(const fs::path& run, long window, Flow& flow, Bri
     record.go_on(flow, particles, window, state.at("books"));
     const json& steps = state.at("window_steps");
     return {steps.at(0), steps.at(1)};
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
-  }
+  });
 }
 
 }  // namespace demvof

@@ -33,6 +33,8 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
 
 /// The surface as the particles of that state know it: with it the run goes on. Throws as the next.
 CellValues<BulkSurface> read_seen_surface(const std::filesystem::path& run, long window);
+/// And what the mesh leaves of the bulk grid.
+OpeningsToBulk::State read_openings(const std::filesystem::path& run, long window);
 
 /// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
 /// Throws InputError when a file is not there or not what was written.

@@ -22,7 +22,6 @@
 #include "foam_side/bridge.hpp"
 #include "foam_side/divided_cells.hpp"
 #include "foam_side/extras.hpp"
-#include "foam_side/find_walls.hpp"
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
@@ -31,6 +30,7 @@
 #include "foam_side/restart.hpp"
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
+#include "foam_side/step_fluid.hpp"
 
 namespace demvof {
 
@@ -38,65 +38,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// What the flux of this step serves: the coming step's. Beyond the window's end the particles go on as they
-/// did.
-scalarField void_fraction_after_next_step(const Flow& flow, ParticlesToFine& to_fine) {
-  const Clock& clock = flow.clock;
-  const double window = clock.window_end - clock.window_begin, step = flow.time.deltaTValue() / window;
-  const double part = (flow.time.value() - clock.window_begin) / window + step;
-  if (part < 1 + 0.5 * step) return to_fine.void_fraction(std::min(part, 1.0));
-  const scalarField before = to_fine.void_fraction(1 - step), end = to_fine.void_fraction(1);
-  return end + (end - before);
-}
-
-/// The surface, or drops, have moved since the goal was set: it is that of now, and the rate has what is left
-/// of the coming step. Before a change of the mesh, or new cells would get that with their profile, at once.
-void catch_up_with_surface(Flow& flow, ParticlesToFine& to_fine) {
-  const Clock& clock = flow.clock;
-  const double step = flow.time.deltaTValue(), now = flow.time.value() - step;
-  const double part = (now - clock.window_begin) / (clock.window_end - clock.window_begin);
-  const scalarField goal = to_fine.void_fraction(part);
-  flow.porosity->rate.field() += (flow.porosity->goal.field() - goal) / step;
-  flow.porosity->goal.field() = goal;
-}
-
-/// One time step of the fluid; false when there is none left in the window or the run.
-bool step_fluid(Flow& flow, Bridge* bridge) {
-  if (!advance_clock(flow)) return false;
-  run_stage().set("fluid step", flow.time.value());
-  const auto before_change = [bridge, &flow] {
-    if (!bridge) return;
-    bridge->collect_impulse();
-    if (flow.porosity && flow.scene.two_fluids) catch_up_with_surface(flow, bridge->particles_to_fine());
-  };
-  const bool moves = extras(flow).motion != MeshMotion::never;
-  if (!moves && refine_mesh(flow, before_change)) {
-    if (bridge) bridge->remap();
-    if (flow.porosity) {
-      set_solid_velocity(flow, bridge->particles_to_fine().solid_velocity());
-      renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
-                     bridge->particles_to_fine().void_fraction(1));
-    }
-    settle_flux(flow);
-  }
-  update_porosity(flow);
-  if (bridge) bridge->particles_to_fine().spread_sources();
-  while (outer_corrector(flow)) {
-    move_mesh(flow);
-    advect_interface(flow);
-    if (bridge && flow.porosity && flow.scene.two_fluids)
-      follow_surface(flow, void_fraction_after_next_step(flow, bridge->particles_to_fine()));
-    if (flow.pimple.frozenFlow()) continue;
-    predict_momentum(flow);
-    while (pressure_corrector(flow)) correct_pressure(flow);
-  }
-  end_step(flow);
-  if (bridge) bridge->collect_pressure();
-  if (bridge && flow.scene.two_fluids)
-    bridge->collect_impulse();  // before the surface moves on to other fine cells
-  return true;
-}
 
 /// What flowed and acted in the window or step just done.
 void enter_books(Flow& flow, FluidReport& report) {
@@ -126,8 +67,8 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     surface.go_on_from(read_seen_surface(options.out, start->window));
   else if (flow.scene.two_fluids)
     surface.news();  // all of it
-  const CellValues<BulkWalls> walls = find_walls(flow.mesh, grid, link.mine(), world.comm());
-  FluidEnd::Start first = link.start(bridge.cut().open_shares(), walls, surface.seen());
+  if (start) bridge.openings_to_bulk().go_on_from(read_openings(options.out, start->window));
+  FluidEnd::Start first = link.start(bridge.openings_to_bulk().told(), surface.seen());
   bridge.take(std::move(first.particles));
   const bool own_lengths = link.plan().own_lengths();
   StepRange range;
@@ -163,6 +104,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   const auto fluid_message = [&] {
     const Stopwatch watch(seconds.mapping);
     FluidMessage fluid;
+    if (link.plan().mesh_moves) fluid.openings = bridge.openings_to_bulk().look();
     if (flow.scene.two_fluids) fluid.surface = bridge.surface_to_bulk().news();
     fluid.means = bridge.bulk_fluids();
     if (link.plan().gradients) fluid.gradients = bridge.bulk_fluid_gradients();

@@ -66,6 +66,14 @@ std::optional<scalar> fraction_everywhere(const Foam::Time& time, const word& ph
   return Foam::returnReduce(one, Foam::andOp<bool>()) && low == high ? std::optional(high) : std::nullopt;
 }
 
+/// As constant/dynamicMeshDict says. A mesh that only refines itself stays where it is.
+bool mesh_moves(const Foam::Time& time) {
+  const Foam::dictionary mesh = Foam::IOdictionary(IOobject(
+      "dynamicMeshDict", time.constant(), time, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
+  const auto type = mesh.lookupOrDefault<word>("dynamicFvMesh", "staticFvMesh");
+  return type != "staticFvMesh" && type != "dynamicRefineFvMesh";
+}
+
 }  // namespace
 
 SceneFacts fluid_facts(const Foam::argList& args) {
@@ -83,6 +91,7 @@ SceneFacts fluid_facts(const Foam::argList& args) {
   if (!fraction || *fraction < 1) facts.gas_density = density(phases[1]);
   const Foam::dictionary turbulence =
       read_dictionary(time, time.constant(), Foam::turbulenceModel::propertiesName);
+  facts.mesh_moves = mesh_moves(time);
   facts.turbulent = word(turbulence.lookup("simulationType")) != "laminar";
   return facts;
 }

@@ -5,7 +5,6 @@
 
 #include "coupler/exchange/particle_report.hpp"
 #include "coupler/link/pair_end.hpp"
-#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -17,15 +16,12 @@ class FluidEnd : public PairEnd {
   /// After the handshake: the particles hear what they have to send and to expect.
   void send_plan(const WindowPlan& plan);
 
-  /// open_shares: the mesh's share in those bulk cells of this rank that it does not fill.
-  /// walls: faces of the bulk grid that the fluid does not pass. surface: all cells that hold liquid, with
-  /// two fluids. Returned: the particles before the first window.
+  /// surface: all cells that hold liquid, with two fluids. Returned: the particles before the first window.
   struct Start {
     std::vector<CellValues<BulkParticles>> particles;  // by fluid
     ParticleReport report;
   };
-  Start start(const CellValues<double>& open_shares, const CellValues<BulkWalls>& walls = {},
-              const CellValues<BulkSurface>& surface = {});
+  Start start(const Openings& openings, const CellValues<BulkSurface>& surface = {});
 
   /// Where windows have their own lengths, after next_window: this one has at most so many DEM steps, and no
   /// more than equal parts of what is left to the next output.

@@ -43,15 +43,20 @@ const WindowPlan& ParticleEnd::receive_plan() {
   return plan_;
 }
 
-FluidEnd::Start FluidEnd::start(const CellValues<double>& open_shares, const CellValues<BulkWalls>& walls,
-                                const CellValues<BulkSurface>& surface) {
-  link_.send(open_shares);
-  link_.send(walls);
+FluidEnd::Start FluidEnd::start(const Openings& openings, const CellValues<BulkSurface>& surface) {
+  link_.send(openings.shares);
+  link_.send(openings.walls);
   if (plan_.fluids > 1) link_.send(surface);
   Start start;
   for (int k = 0; k < plan_.fluids; ++k) start.particles.push_back(link_.receive<BulkParticles>());
   start.report = link_.receive_record<ParticleReport>();
   return start;
+}
+Openings ParticleEnd::openings() {
+  Openings openings;
+  openings.shares = link_.receive<double>();
+  openings.walls = link_.receive<BulkWalls>();
+  return openings;
 }
 void ParticleEnd::start(const std::vector<CellValues<BulkParticles>>& particles,
                         const ParticleReport& report) {
@@ -74,7 +79,12 @@ void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& ad
   require_one_per_fluid(fluid.means);
   if (plan_.gradients) require_one_per_fluid(fluid.gradients);
   require(plan_.interface, fluid.interface);
+  require(plan_.mesh_moves, fluid.openings);
   if (plan_.own_lengths()) link_.send_record(steps_);
+  if (plan_.mesh_moves) {
+    link_.send(fluid.openings->shares);
+    link_.send(fluid.openings->walls);
+  }
   if (plan_.fluids > 1) link_.send(fluid.surface);
   for (const CellValues<BulkFluid>& means : fluid.means) link_.send(means);
   for (int k = 0; k < plan_.fluids && plan_.gradients; ++k) link_.send(fluid.gradients[k]);
@@ -99,6 +109,7 @@ void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& ad
 FluidMessage ParticleEnd::fluid() {
   FluidMessage fluid;
   if (plan_.own_lengths()) steps_ = link_.receive_record<long>();
+  if (plan_.mesh_moves) fluid.openings = openings();
   if (plan_.fluids > 1) fluid.surface = link_.receive<BulkSurface>();
   for (int k = 0; k < plan_.fluids; ++k) fluid.means.push_back(link_.receive<BulkFluid>());
   for (int k = 0; k < plan_.fluids && plan_.gradients; ++k)

@@ -3,7 +3,6 @@
 
 #include "coupler/exchange/particle_report.hpp"
 #include "coupler/link/pair_end.hpp"
-#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -15,10 +14,8 @@ class ParticleEnd : public PairEnd {
   /// After the handshake.
   const WindowPlan& receive_plan();
 
-  /// The fluid's share in those bulk cells of this rank that its mesh does not fill.
-  CellValues<double> open_shares() { return link_.receive<double>(); }
-  /// After that: faces of these cells that the fluid does not pass.
-  CellValues<BulkWalls> walls() { return link_.receive<BulkWalls>(); }
+  /// What the fluid's mesh leaves of the bulk grid at the start.
+  Openings openings();
   /// With two fluids, after that: all cells that hold liquid.
   CellValues<BulkSurface> surface() { return link_.receive<BulkSurface>(); }
   /// Ends the start: the particles before the first window.

@@ -8,6 +8,7 @@
 #include "coupler/exchange/exchange_parameters.hpp"
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/bulk_surface.hpp"
+#include "coupler/transfer/bulk_walls.hpp"
 
 namespace demvof {
 
@@ -17,6 +18,7 @@ struct WindowPlan {
   Schedule schedule = Schedule::staggered;
   int fluids = 1;           // 2: BulkSurface comes first; then one message for the liquid and one for the gas
   bool gradients = false;   // BulkFluidGradients follow BulkFluid
+  bool mesh_moves = false;  // Openings come first in each window
   bool interface = false;   // BulkInterface follows them, and Droplet BulkParticles
   long windows = 0;         // of the whole run; 0: not known
   long windows_before = 0;  // done by the run that this one continues
@@ -32,6 +34,7 @@ struct WindowPlan {
 
 /// The fluid at the start of a window, on the active bulk cells; what the plan leaves out is not there.
 struct FluidMessage {
+  std::optional<Openings> openings;          // of a mesh that moves
   CellValues<BulkSurface> surface;           // with two fluids: where it is, and where it was before
   std::vector<CellValues<BulkFluid>> means;  // by fluid: liquid, gas
   std::vector<CellValues<BulkFluidGradients>> gradients;  // by fluid, or none

@@ -41,6 +41,7 @@ inline WindowPlan plan_windows(const CaseParameters& parameters, const Scene& sc
   plan.schedule = parameters.coupling.schedule;
   plan.fluids = scene.two_fluids ? 2 : 1;
   plan.gradients = need_gradients(forces);
+  plan.mesh_moves = scene.mesh_moves;
   plan.interface = scene.interchange == PhaseInterchange::replacement;
   plan.window = parameters.coupling.window;
   if (plan.own_lengths())

@@ -32,6 +32,7 @@ class Plan {
   void advise_on_phases();
   void advise_on_dem_step();
   void empty_bulk_cells();
+  bool moving_mesh();
 
   std::vector<Decision> decisions;
   std::vector<std::string> advice;
@@ -246,6 +247,14 @@ void Plan::empty_bulk_cells() {
                          : "There are no particles: nothing is averaged or exchanged.");
 }
 
+bool Plan::moving_mesh() {
+  const std::string name = "bulk grid met anew by a mesh that moves";
+  if (!facts_.mesh_moves) return decide(name, false, "The fluid's mesh does not move.");
+  return decide(name, with_particles_,
+                with_particles_ ? "The fluid's mesh moves, and particles are told in each window where it is."
+                                : "The fluid's mesh moves, but there are no particles.");
+}
+
 bool Plan::turbulence(bool porosity) {
   const std::string name = "turbulence model";
   if (!facts_.turbulent) return decide(name, false, "The fluid case is laminar.");
@@ -274,6 +283,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   plan.advise_on_phases();
   plan.advise_on_dem_step();
   plan.empty_bulk_cells();
+  scene.mesh_moves = plan.moving_mesh();
   scene.turbulence = plan.turbulence(scene.porosity);
   if (!plan.impossible.empty()) throw InputError(plan.impossible);
   scene.decisions = plan.decisions;

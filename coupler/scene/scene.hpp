@@ -12,6 +12,7 @@ namespace demvof {
 struct SceneFacts {
   double surface_tension = 0;         // largest coefficient in the fluid case, N/m
   bool two_fluids = true;             // both fluids present at the start or at an inlet
+  bool mesh_moves = false;            // the fluid's mesh: its points, that is
   bool turbulent = false;             // a turbulence model other than laminar
   bool particles = false;             // a particle script is given
   long particle_count = 0;            // at the start
@@ -40,6 +41,7 @@ struct Scene {
   bool porosity = false;
   PhaseInterchange interchange = PhaseInterchange::none;  // how particles cross the interface
   bool turbulence = false;
+  bool mesh_moves = false;  // the particles hear in each window what the mesh leaves of the bulk grid
   SuspensionViscosity suspension_viscosity = SuspensionViscosity::none;
   std::vector<Decision> decisions;
   std::vector<std::string> advice;  // what the facts speak against, a sentence each; nothing is changed by it

@@ -91,13 +91,10 @@ bool Averaging::on_any_rank(bool here) const {
   return any > 0;
 }
 
-void Averaging::set_open_shares(CellValues<double> open_share) {
-  open_share_ = std::move(open_share);
+void Averaging::set_openings(Openings openings) {
+  open_share_ = std::move(openings.shares);
   all_open_ = !on_any_rank(!open_share_.cells.empty());
-}
-
-void Averaging::set_walls(CellValues<BulkWalls> walls) {
-  walls_ = std::move(walls);
+  walls_ = std::move(openings.walls);
   walled_ = on_any_rank(!walls_.cells.empty());
   for (AveragingInFluid& fluid : fluids_) fluid.set_walls(walls_);
 }

@@ -33,11 +33,9 @@ class Averaging {
   Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
             const AveragingParameters& parameters);
 
-  /// Cells of this rank that the fluid mesh does not fill, with the fluid's share in their volume: particles
-  /// count in that share only, from the next weigh() on.
-  void set_open_shares(CellValues<double> open_share);
-  /// Faces of this rank's cells that the fluid does not pass: kernels do not reach through them.
-  void set_walls(CellValues<BulkWalls> walls);
+  /// What the fluid's mesh leaves of this rank's cells, from the next weigh() on: particles count in the
+  /// fluid's share of a cell only, and kernels do not reach through walls.
+  void set_openings(Openings openings);
   /// There are two fluids from here on. news: of this rank's cells, those that the surface cuts now and those
   /// that it has left since; the first time all that hold liquid. Weights follow in the next weigh().
   void see(const CellValues<BulkSurface>& news);

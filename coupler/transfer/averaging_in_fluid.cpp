@@ -40,8 +40,8 @@ void AveragingInFluid::set_shares(CellValues<double> share) {
   share_ = std::move(share);
   int partial = share_.cells.empty() ? 0 : 1;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &partial, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
-  everywhere_ = partial == 0;
-  if (diffusion_ && !everywhere_) diffusion_->set_open_shares(share_);
+  const bool was_everywhere = std::exchange(everywhere_, partial == 0);
+  if (diffusion_ && !(was_everywhere && everywhere_)) diffusion_->set_open_shares(share_);
 }
 
 void AveragingInFluid::set_walls(const CellValues<BulkWalls>& walls) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "coupler/grid/bulk_cells.hpp"
 #include "coupler/grid/bulk_grid.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
 
@@ -14,6 +15,12 @@ struct BulkWalls {
   double x = 0, y = 0, z = 0;
 
   bool towards_lower(int axis) const { return (axis == 0 ? x : axis == 1 ? y : z) > 0; }
+};
+
+/// What the mesh leaves to the fluid of the bulk grid, on the owners' cells. A mesh that moves changes it.
+struct Openings {
+  CellValues<double> shares;    // of the cells that the mesh does not fill, in their volume, -
+  CellValues<BulkWalls> walls;  // of the cells that have some
 };
 
 /// Takes the kernels' weights back that lie beyond a wall, as their mirror images: shares still add up to 1,

@@ -166,8 +166,7 @@ int play(const Options& options, OwnWorld& world) {
                  facts(options, solid_volume, step, world));
   const WindowPlan& plan = link.receive_plan();
 
-  link.open_shares();
-  link.walls();
+  link.openings();
   rows = bed.at(link.end_time());
   // The bed is wetted by the liquid alone: the stand-in is for one fluid, and for surfaces that it does not
   // touch.

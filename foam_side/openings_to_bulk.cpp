@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/openings_to_bulk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "coupler/base/errors.hpp"
+#include "coupler/base/mpi_check.hpp"
+#include "coupler/transfer/remap.hpp"
+#include "foam_side/fine_mesh.hpp"
+#include "syncTools.H"
+
+namespace demvof {
+
+namespace {
+
+// Of a fine cell's volume: what the corners of a mesh, as written in its file, let it stick out of a bulk
+// cell.
+constexpr double sticks_out = 1e-6;
+
+// A bulk cell is full of fluid mesh up to what the corners of a mesh, as written in its file, leave open.
+constexpr double full = 1 - 1e-6;
+
+// Of a bulk cell that a mesh which moves fills, to hold particles; and for how long it has to hold them. What
+// they leave behind in a cell is in the fluid's books for a window more (owed_pressure.hpp), with the
+// concurrent schedule for two, and motion may grow faster.
+constexpr double least_share = 0.01;
+constexpr double windows_ahead = 4;
+
+/// Per touched bulk cell. Travels as a row of doubles.
+struct Passages {
+  BulkWalls passed;  // how often something connects the cell with its lower neighbours
+  double volume = 0;
+};
+
+double& component(BulkWalls& row, int axis) {
+  return axis == 0 ? row.x : axis == 1 ? row.y : row.z;
+}
+
+class Connections {
+ public:
+  Connections(const BulkGrid& grid, const std::vector<CellId>& cells)
+      : grid_(grid), cells_(cells), passages_(cells.size()) {}
+
+  void fill(int slot, double volume) { passages_[slot].volume += volume; }
+  /// The fluid is one in two bulk cells; nothing unless they share a face.
+  void connect(CellId a, CellId b) {
+    if (a == b) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (grid_.neighbour(grid_.ijk(a), axis, -1) == b) pass(a, axis);
+      if (grid_.neighbour(grid_.ijk(b), axis, -1) == a) pass(b, axis);
+    }
+  }
+  const std::vector<Passages>& passages() const { return passages_; }
+
+ private:
+  void pass(CellId upper, int axis) {
+    const auto place = std::lower_bound(cells_.begin(), cells_.end(), upper);
+    if (place != cells_.end() && *place == upper)
+      component(passages_[place - cells_.begin()].passed, axis) += 1;
+  }
+  const BulkGrid& grid_;
+  const std::vector<CellId>& cells_;
+  std::vector<Passages> passages_;
+};
+
+CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid, const Remap& cut) {
+  const std::vector<CellId>& touched = cut.cells().cells();
+  Connections connections(grid, touched);
+  std::vector<std::vector<CellId>> bulk(static_cast<std::size_t>(mesh.nCells()));  // of each fine cell
+  for (const Subcell& subcell : cut.subcells()) {
+    connections.fill(subcell.slot, subcell.volume);
+    if (subcell.volume > sticks_out * mesh.V()[subcell.fine])
+      bulk[subcell.fine].push_back(touched[subcell.slot]);
+  }
+  const auto connect = [&](const std::vector<CellId>& some, const std::vector<CellId>& others) {
+    for (const CellId a : some)
+      for (const CellId b : others) connections.connect(a, b);
+  };
+  for (const std::vector<CellId>& cells : bulk) connect(cells, cells);
+  for (label face = 0; face < mesh.nInternalFaces(); ++face)
+    connect(bulk[mesh.faceOwner()[face]], bulk[mesh.faceNeighbour()[face]]);
+
+  scalarField home(mesh.nCells()),
+      across;  // bulk cell of each fine cell's centre; beyond the boundary's faces
+  forAll(home, cell) home[cell] =
+      static_cast<double>(grid.id(grid.locate(to_vec3(mesh.cellCentres()[cell]))));
+  Foam::syncTools::swapBoundaryCellList(mesh, home, across);
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+    for (label face = patch.start(); patch.coupled() && face < patch.start() + patch.size(); ++face)
+      connect(bulk[mesh.faceOwner()[face]], {static_cast<CellId>(across[face - mesh.nInternalFaces()])});
+
+  // Both cells of a face must hold fluid: volumes of all neighbours, by way of the owners.
+  const CellValues<Passages> owned = cut.cells().sum_to_owners(connections.passages());
+  const std::vector<Passages> all = cut.cells().fetch_from_owners(owned, Passages{});
+  std::vector<BulkWalls> walls(touched.size());
+  for (std::size_t slot = 0; slot < touched.size(); ++slot)
+    for (int axis = 0; axis < 3; ++axis) {
+      const CellId lower = grid.neighbour(grid.ijk(touched[slot]), axis, -1);
+      const auto place = std::lower_bound(touched.begin(), touched.end(), lower);
+      if (lower < 0 || lower == touched[slot] || place == touched.end() || *place != lower) continue;
+      Passages here = all[slot];
+      const bool both = here.volume > 0 && all[place - touched.begin()].volume > 0;
+      if (both && component(here.passed, axis) == 0) component(walls[slot], axis) = 1;
+    }
+  const CellValues<BulkWalls> found = cut.cells().sum_to_owners(walls);
+  CellValues<BulkWalls> kept;
+  for (std::size_t i = 0; i < found.cells.size(); ++i) {
+    const BulkWalls& here = found.values[i];
+    if (here.x + here.y + here.z == 0) continue;
+    kept.cells.push_back(found.cells[i]);
+    kept.values.push_back(here);
+  }
+  return kept;
+}
+
+void require_inside(const Foam::fvMesh& mesh, const BulkGrid& grid) {
+  const MeshBox box = mesh_box(mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double margin = 1e-6 * (box.upper[axis] - box.lower[axis]);
+    if (box.lower[axis] < grid.lower()[axis] - margin || box.upper[axis] > grid.upper()[axis] + margin)
+      throw RunError(
+          fmt::format("the mesh has moved to {:.4g} to {:.4g} m along {}, out of the bulk grid, which goes "
+                      "from {:.4g} to "
+                      "{:.4g} m: give bulk_grid a box that holds the mesh wherever it goes",
+                      box.lower[axis], box.upper[axis], "xyz"[axis], grid.lower()[axis], grid.upper()[axis]));
+  }
+}
+
+CellValues<double> without_cells_that_empty(CellValues<double> shares, const CellValues<double>& before) {
+  for (std::size_t i = 0; i < shares.cells.size(); ++i) {
+    double& share = shares.values[i];
+    const double* last = find(before, shares.cells[i]);
+    const double change = share - (last ? *last : 1);
+    if (share < least_share || share + windows_ahead * change <= 0) share = 0;
+  }
+  return shares;
+}
+
+CellValues<double> find_shares(const BulkGrid& grid, const BulkPartition& partition, const Remap& cut,
+                               MPI_Comm world) {
+  std::vector<double> here(cut.cells().cells().size(), 0.0);
+  for (const Subcell& subcell : cut.subcells()) here[subcell.slot] += subcell.volume;
+  const CellValues<double> met = cut.cells().sum_to_owners(here);
+  CellValues<double> open;
+  int rank;
+  check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
+  std::size_t next = 0;
+  for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell) {
+    const bool known = next < met.cells.size() && met.cells[next] == cell;
+    const double share = known ? met.values[next++] / grid.cell_volume() : 0.0;
+    if (share >= full) continue;
+    open.cells.push_back(cell);
+    open.values.push_back(share);
+  }
+  return open;
+}
+
+}  // namespace
+
+OpeningsToBulk::OpeningsToBulk(const BulkCut& cut) : cut_(cut) {
+  state_.told = find();
+  state_.shares = state_.told.shares;
+}
+
+Openings OpeningsToBulk::find() const {
+  const Remap whole(cut_.world(), cut_.grid(), cut_.partition(), fine_mesh(cut_.mesh()),
+                    {Mapping::nearest, Mapping::conservative});
+  return {find_shares(cut_.grid(), cut_.partition(), whole, cut_.world()),
+          find_walls(cut_.mesh(), cut_.grid(), whole)};
+}
+
+const Openings& OpeningsToBulk::look() {
+  require_inside(cut_.mesh(), cut_.grid());
+  Openings now = find();
+  const CellValues<double> before = std::exchange(state_.shares, now.shares);
+  now.shares = without_cells_that_empty(std::move(now.shares), before);
+  state_.told = std::move(now);
+  return state_.told;
+}
+
+}  // namespace demvof
