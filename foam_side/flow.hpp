@@ -240,6 +240,9 @@ tmp<scalarField> prescribed_growth(const Flow& flow);
 /// Volumes at the begin of the step, m3.
 const scalarField& volumes_before(const Flow& flow);
 
+/// u.S of the face velocity on a mesh that changes, m3/s; at patches with a given velocity that one's.
+tmp<surfaceScalarField> flux_of_face_velocity(const Flow& flow);
+
 /// Between a flux in space and that through the faces, which may move.
 void make_relative(const Flow& flow, surfaceScalarField& flux);
 void make_absolute(const Flow& flow, surfaceScalarField& flux);

@@ -9,7 +9,10 @@
 // continuous by a potential as in interFoam, if PIMPLE's correctPhi says so. With a void fraction:
 // move_porosity.cpp.
 
+#include <algorithm>
+
 #include "foam_side/extras.hpp"
+#include "wallFvPatch.H"
 
 namespace demvof {
 namespace {
@@ -27,15 +30,11 @@ void renew_geometry(Flow& flow) {
   if (flow.mesh.topoChanging()) extras(flow).compression.reset();
 }
 
-/// Through patches with a given velocity, which may have moved, goes what it says.
-void renew_given_flux(Flow& flow) {
+/// Of patches which may have moved.
+void renew_given_velocity(Flow& flow) {
   auto& U = flow.U.boundaryFieldRef();
   forAll(U, patch) if (U[patch].fixesValue()) U[patch].initEvaluate();
-  forAll(U, patch) {
-    if (!U[patch].fixesValue()) continue;
-    U[patch].evaluate();
-    flow.phi.boundaryFieldRef()[patch] == (U[patch] & flow.mesh.Sf().boundaryField()[patch]);
-  }
+  forAll(U, patch) if (U[patch].fixesValue()) U[patch].evaluate();
 }
 
 /// How the velocity answered to a force in the last step, m3 s/kg; before the first one the same everywhere.
@@ -53,15 +52,43 @@ bool move_points(Flow& flow) {
   return true;
 }
 
+/// A wall that the mesh takes along without knowing of it would let fluid through.
+void require_walls_that_go_along(const Flow& flow) {
+  const surfaceScalarField& swept = flow.mesh.phi();
+  scalar most = 0;
+  for (const scalar flux : swept) most = std::max(most, std::abs(flux));
+  Foam::reduce(most, Foam::maxOp<scalar>());
+  forAll(flow.mesh.boundary(), patch) {
+    const Foam::fvPatchVectorField& U = flow.U.boundaryField()[patch];
+    if (!Foam::isA<Foam::wallFvPatch>(U.patch())) continue;
+    scalar through = 0;
+    forAll(U, face) through = std::max(
+        through, std::abs((U[face] & U.patch().Sf()[face]) - swept.boundaryField()[patch][face]));
+    if (Foam::returnReduce(through, Foam::maxOp<scalar>()) <= 1e-3 * most) continue;
+    FatalErrorInFunction << "U: wall " << U.patch().name() << " moves with the mesh (constant/dynamicMeshDict), "
+                         << "and its velocity is that of type " << U.type()
+                         << ", which does not know it: movingWallVelocity does" << Foam::exit(Foam::FatalError);
+  }
+}
+
 void fit_flux_to_moved_mesh(Flow& flow) {
-  flow.phi = flow.mesh.Sf() & *flow.face_velocity;
-  renew_given_flux(flow);
+  renew_given_velocity(flow);
+  flow.phi = flux_of_face_velocity(flow);
   fit_flux(flow, last_answer(flow), nullptr);
   make_relative(flow, flow.phi);
   flow.mixture.correct();
 }
 
 }  // namespace
+
+tmp<surfaceScalarField> flux_of_face_velocity(const Flow& flow) {
+  tmp<surfaceScalarField> flux = flow.mesh.Sf() & *flow.face_velocity;
+  forAll(flow.U.boundaryField(), patch) {
+    const Foam::fvPatchVectorField& U = flow.U.boundaryField()[patch];
+    if (U.fixesValue()) flux.ref().boundaryFieldRef()[patch] == (U & U.patch().Sf());
+  }
+  return flux;
+}
 
 void move_mesh(Flow& flow) {
   if (!is_due(flow)) return;
@@ -76,7 +103,10 @@ void move_under_particles(Flow& flow) {
     FatalErrorInFunction << "constant/dynamicMeshDict: " << flow.mesh.type()
                          << ": with particles points may move, but not come and go"
                          << Foam::exit(Foam::FatalError);
-  if (moved && !flow.porosity) fit_flux_to_moved_mesh(flow);
+  if (!moved) return;
+  renew_given_velocity(flow);
+  require_walls_that_go_along(flow);
+  if (!flow.porosity) fit_flux_to_moved_mesh(flow);
 }
 
 void make_relative(const Flow& flow, surfaceScalarField& flux) {

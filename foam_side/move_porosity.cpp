@@ -18,19 +18,6 @@
 namespace demvof {
 namespace {
 
-/// The flux of the last step's face velocity, m3/s; what is given at patches goes along.
-tmp<surfaceScalarField> velocity_flux_on_moved_mesh(Flow& flow) {
-  tmp<surfaceScalarField> flux = flow.mesh.Sf() & *flow.face_velocity;
-  auto& U = flow.U.boundaryFieldRef();
-  forAll(U, patch) if (U[patch].fixesValue()) U[patch].initEvaluate();
-  forAll(U, patch) {
-    if (!U[patch].fixesValue()) continue;
-    U[patch].evaluate();
-    flux.ref().boundaryFieldRef()[patch] == (U[patch] & flow.mesh.Sf().boundaryField()[patch]);
-  }
-  return flux;
-}
-
 /// A closed box holds as much fluid after the motion as before. What interpolation and full cells
 /// (particles_to_fine.cpp) have spoilt of that is spread evenly.
 void keep_volume_of_closed_box(const Flow& flow, scalarField& goal) {
@@ -67,7 +54,7 @@ void move_porosity(Flow& flow, const scalarField& begin, const scalarField& end)
   porosity.eps.primitiveFieldRef() = porosity.goal.field();
   porosity.eps.correctBoundaryConditions();
   follow_solid(flow);
-  flow.phi = flux_of(flow, velocity_flux_on_moved_mesh(flow));
+  flow.phi = flux_of(flow, flux_of_face_velocity(flow));
   porosity.swept = std::make_unique<surfaceScalarField>("sweptFluid", 0 * flow.phi);
   if (flow.mesh.moving()) *porosity.swept = face_void_fraction(porosity.eps) * flow.mesh.phi();
   make_relative(flow, flow.phi);

@@ -134,13 +134,7 @@ void refine_start(Flow& flow) {
 void settle_flux(Flow& flow) {
   agree_on_both_sides(*flow.face_velocity);
   flow.face_velocity->oldTime() == *flow.face_velocity;
-  flow.phi = flow.mesh.Sf() & *flow.face_velocity;
-  auto& at_boundary = flow.phi.boundaryFieldRef();
-  forAll(at_boundary, patch) {
-    const auto& wall_velocity = flow.U.boundaryField()[patch];
-    if (wall_velocity.fixesValue())
-      at_boundary[patch] = wall_velocity & flow.mesh.Sf().boundaryField()[patch];
-  }
+  flow.phi = flux_of_face_velocity(flow);
   if (flow.porosity) {
     follow_solid(flow);
     flow.phi = flux_of(flow, flow.phi);
