@@ -113,7 +113,8 @@ int play(const Options& options, OwnWorld& world) {
     const long n = link.number();
     if (link.plan().own_lengths()) link.set_steps(options.steps.at((n - 1) % options.steps.size()));
     const double window = link.window_length();
-    FluidMessage fluid{{}, {still_water(particles.cells, options)}, {}, {}};
+    FluidMessage fluid;
+    fluid.means = {still_water(particles.cells, options)};
     Vec3 left_over;
     for (std::size_t i = 0; i < particles.cells.size(); ++i)
       if (particles.values[i].drag_factor > 0) {  // as with K_eff: nothing is left over without drag

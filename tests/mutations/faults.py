@@ -23,6 +23,7 @@ HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
                "^unit_output_due$": ["unit_output_due"]}
+MOVING = {"^pair.moving_mesh$": PAIR}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}
 SHAKEN, ROWS = {"^pair.shaken$": PAIR}, {"^unit_gravity_table$": ["unit_gravity_table"]}
@@ -162,8 +163,8 @@ FAULTS = [
     ("foam_side/solid_fraction.cpp", "middle[slot] / most", "0", COMING),
     ("foam_side/solid_motion.cpp", "return porosity.along + (flux - porosity.carried)",
      "return porosity.along + (flux + porosity.carried)", CARRIED),
-    ("foam_side/run.cpp", "return end + (end - before);", "return end + 0 * (end - before);", SETTLING),
-    ("foam_side/run.cpp", "flow.porosity->goal.field() = goal;", "", DROP),
+    ("foam_side/step_fluid.cpp", "return end + (end - before);", "return end + 0 * (end - before);", SETTLING),
+    ("foam_side/step_fluid.cpp", "flow.porosity->goal.field() = goal;", "", DROP),
     ("foam_side/bridge.cpp", "left_over_[k].collect({{cell}, {-impulse}}, particles);",
      "left_over_[k].collect({{cell}, {impulse}}, particles);", DROP),
     ("foam_side/end_step.cpp", "dt * source.coefficient[cell] * (source.reference[cell] - flow.U[cell])",
@@ -207,4 +208,13 @@ FAULTS = [
      "dem.set_gravity(parameters.gravity->at(link.begin_time()));", SHAKEN),
     ("dem_side/forces.cpp", "constant + (weight - weight_of_script);", "constant;", SHAKEN),
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
+    # ---- meshes that move
+    ("foam_side/move_porosity.cpp", "face_void_fraction(porosity.eps) * flow.mesh.phi()", "flow.mesh.phi()", MOVING),
+    ("foam_side/move_porosity.cpp", "flow.mesh.moving() ? flow.mesh.V0().field()", "!flow.mesh.moving() ? flow.mesh.V0().field()",
+     MOVING),
+    ("foam_side/correct_pressure.cpp", "if (flow.porosity->swept) return prescribed_growth(flow);", "", MOVING),
+    ("foam_side/step_fluid.cpp", "  bridge.collect_impulse();\n  move_under_particles(flow);", "  move_under_particles(flow);", MOVING),
+    ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
+    ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share <= 0", MOVING),
+    ("dem_side/run.cpp", "if (fluid.openings) averaging.set_openings(*fluid.openings);", "", MOVING),
 ]

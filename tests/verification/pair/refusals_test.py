@@ -90,6 +90,16 @@ def with_library():
 
 
 # name: (how the case is made, exit code, what has to be said, or not)
+def shaken(name, **keys):
+    """A mesh that moves, with walls that know it."""
+    case = box(name, **keys)
+    case.extra_files["fluid/constant/dynamicMeshDict"] = SHAKEN
+    for side in case.sides.values():
+        if side["type"] == "wall":
+            side["U"] = "movingWallVelocity; value uniform (0 0 0)"
+    return case.write()
+
+
 TRIALS = {
     "ranks_of_the_script": (with_processors, 2,
                             ["in.particles:", "'processors 2 2 1'", "particles.ranks"]),
@@ -107,7 +117,11 @@ TRIALS = {
                                      ["fix belt (wall/gran", "no wall of the fluid moves"]),
     "wall_that_moves_on_both": (with_drum, 0, []),
     "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
-                        ["dynamicMeshDict", "with particles"]),
+                        ["wall xlow moves with the mesh", "movingWallVelocity does"]),
+    "mesh_that_moves_on_one_side": (lambda: shaken("mesh_alone"), 2, ["walls of the fluid's mesh move", "fix move/mesh"]),
+    "mesh_that_moves_on_both": (lambda: shaken("mesh_and_script", script_tail=PISTON, extra_files={"particles/p.stl": STL}), 0, []),
+    "mesh_that_moves_in_each_corrector": (lambda: shaken("correctors", pimple="moveMeshOuterCorrectors yes;"), 2,
+                                          ["moveMeshOuterCorrectors", "once a step"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
                                  ["dynamicRefineFvMesh", "fluid.refinement"]),
     "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
