@@ -62,12 +62,14 @@ void require_walls_that_go_along(const Flow& flow) {
     const Foam::fvPatchVectorField& U = flow.U.boundaryField()[patch];
     if (!Foam::isA<Foam::wallFvPatch>(U.patch())) continue;
     scalar through = 0;
-    forAll(U, face) through = std::max(
-        through, std::abs((U[face] & U.patch().Sf()[face]) - swept.boundaryField()[patch][face]));
+    forAll(U, face) through =
+        std::max(through, std::abs((U[face] & U.patch().Sf()[face]) - swept.boundaryField()[patch][face]));
     if (Foam::returnReduce(through, Foam::maxOp<scalar>()) <= 1e-3 * most) continue;
-    FatalErrorInFunction << "U: wall " << U.patch().name() << " moves with the mesh (constant/dynamicMeshDict), "
+    FatalErrorInFunction << "U: wall " << U.patch().name()
+                         << " moves with the mesh (constant/dynamicMeshDict), "
                          << "and its velocity is that of type " << U.type()
-                         << ", which does not know it: movingWallVelocity does" << Foam::exit(Foam::FatalError);
+                         << ", which does not know it: movingWallVelocity does"
+                         << Foam::exit(Foam::FatalError);
   }
 }
 
