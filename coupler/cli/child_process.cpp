@@ -11,6 +11,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace demvof {
@@ -78,6 +81,22 @@ std::optional<int> ChildProcess::poll() {
   int status = 0;
   if (!exit_code_ && waitpid(id_, &status, WNOHANG) == id_) keep(status);
   return exit_code_;
+}
+
+// /proc/PID/stat: "pid (name) state parent ...", and the name may hold anything.
+bool ChildProcess::has_children() const {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", none)) {
+    std::ifstream file(entry.path() / "stat");
+    std::string line;
+    if (!std::getline(file, line)) continue;
+    std::istringstream fields(line.substr(line.rfind(')') + 1));
+    char state = 'X';
+    pid_t parent = 0;
+    fields >> state >> parent;
+    if (parent == id_ && state != 'Z' && state != 'X') return true;
+  }
+  return false;
 }
 
 int ChildProcess::wait() {

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -89,6 +90,30 @@ class Lines {
   std::string rest_;
   std::vector<std::string> chatter_;
   bool in_block_ = false, said_something_ = false;
+};
+
+/// mpirun may not end when all that it has started has: Open MPI 4 waits for itself for ever in its clean-up
+/// when a rank was killed while it introduced itself.
+class Forgotten {
+ public:
+  /// True once mpirun has had programs, and has been without any for 10 s. Asked often, it looks once a
+  /// second.
+  bool operator()(const ChildProcess& mpirun) {
+    constexpr double patience = 10;
+    const auto now = std::chrono::steady_clock::now();
+    const auto since = [now](auto then) { return std::chrono::duration<double>(now - then).count(); };
+    if (since(last_look_) < 1) return false;
+    last_look_ = now;
+    if (mpirun.has_children()) {
+      last_seen_ = now;
+      begun_ = true;
+    }
+    return begun_ && since(last_seen_) > patience;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_look_, last_seen_;
+  bool begun_ = false;
 };
 
 /// Passes on what is in the pipe now, waiting a quarter of a second at most.
@@ -178,7 +203,9 @@ int launch(const LaunchCommand& command, const Watch& watch) {
   ChildProcess programs(command.words, options);
   close(pipe_ends[1]);
   Lines lines(watch.on_line);
+  Forgotten forgotten;
   int passed_on = 0;
+  bool killed = false;
   std::optional<int> code;
   while (!(code = programs.poll())) {
     read_some(pipe_ends[0], lines, 250);
@@ -188,12 +215,17 @@ int launch(const LaunchCommand& command, const Watch& watch) {
                                    : "ending at once");
       ++passed_on;
     }
+    if (command.words.front() == "mpirun" && !killed && forgotten(programs)) {
+      watch.on_line("mpirun does not end though its programs have: killing it");
+      programs.send_signal(SIGKILL);
+      killed = true;
+    }
     watch.on_tick();
   }
   read_some(pipe_ends[0], lines, 0);
   close(pipe_ends[0]);
   const bool said_something = lines.finish(*code != 0);
-  if (passed_on == 0)
+  if (passed_on == 0 && !killed)
     if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
         !end.empty())
       watch.on_line(end);

@@ -12,6 +12,7 @@
 #include "coupler/base/errors.hpp"
 #include "coupler/config/keys.hpp"
 #include "coupler/config/nearest.hpp"
+#include "coupler/config/printable.hpp"
 
 namespace demvof {
 namespace {
@@ -128,7 +129,8 @@ GivenValues::GivenValues(const std::string& file) : file_(file) {
     second = line_of_second_document(text);
     document = YAML::Load(text);
   } catch (const YAML::ParserException& error) {
-    throw InputError(fmt::format("{}:{}: not valid YAML: {}", file, error.mark.line + 1, error.msg));
+    throw InputError(
+        fmt::format("{}:{}: not valid YAML: {}", file, error.mark.line + 1, printable(error.msg)));
   }
   const bool empty = document.IsNull();
   if (second && (empty || !document.IsMap()))
@@ -229,7 +231,9 @@ void GivenValues::walk_list_entry(const YAML::Node& entry, const std::string& pa
 void GivenValues::walk_item(const std::string& name, const YAML::Node& value, const Source& source,
                             const std::string& parent, std::vector<std::string>& seen) {
   const std::string path = joined(parent, name);
-  if (!is_known(path)) {
+  if (name.find('.') != std::string::npos && is_known(path)) {
+    add_mistake(source, path, "the key of a section is written inside of it, not with dots");
+  } else if (!is_known(path)) {
     add_mistake(source, path, unknown_key(name, parent));
   } else if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
     add_mistake(

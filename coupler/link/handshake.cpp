@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,6 +16,18 @@
 
 namespace demvof {
 namespace {
+
+/// OpenFOAM traps floating-point exceptions; a number of the partner that overflows is no reason to die.
+class NoTraps {
+ public:
+  NoTraps() { std::feholdexcept(&before_); }
+  ~NoTraps() { std::fesetenv(&before_); }
+  NoTraps(const NoTraps&) = delete;
+  NoTraps& operator=(const NoTraps&) = delete;
+
+ private:
+  std::fenv_t before_ = {};
+};
 
 // Numbers separated by blanks, or nothing when it is any other text.
 std::optional<std::vector<double>> numbers(const std::string& text) {
@@ -32,22 +45,18 @@ std::optional<std::vector<double>> numbers(const std::string& text) {
 bool agree(double a, double b, double tolerance) {
   const double magnitude = std::max(std::abs(a), std::abs(b));
   const double difference = std::abs(a - b);
+  if (!std::isfinite(difference)) return false;
   return magnitude < 1e-300 ? difference <= tolerance : difference <= tolerance * magnitude;
 }
 
 bool agree(const HandshakeItem& a, const HandshakeItem& b) {
   const double tolerance = std::max(a.tolerance, b.tolerance);
   if (tolerance < 0) return a.value == b.value;  // text may look like a number: a hash 5e1234... overflows
+  const NoTraps here;
   const auto x = numbers(a.value), y = numbers(b.value);
   if (!x || !y) return a.value == b.value;
   return x->size() == y->size() && std::equal(x->begin(), x->end(), y->begin(),
                                               [&](double p, double q) { return agree(p, q, tolerance); });
-}
-
-std::string to_json(const std::vector<HandshakeItem>& items, const std::string& facts) {
-  nlohmann::json json{{"items", nlohmann::json::array()}, {"facts", facts}};
-  for (const HandshakeItem& item : items) json["items"].push_back({item.key, item.value, item.tolerance});
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -63,12 +72,32 @@ std::vector<std::string> disagreements(const std::vector<HandshakeItem>& fluid,
   return lines;
 }
 
+std::string to_text(const Handshake& handshake) {
+  nlohmann::json json{{"items", nlohmann::json::array()}, {"facts", handshake.facts}};
+  for (const HandshakeItem& item : handshake.items)
+    json["items"].push_back({item.key, item.value, item.tolerance});
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Handshake read_handshake(const std::string& text) {
+  const NoTraps here;
+  try {
+    const auto json = nlohmann::json::parse(text);
+    Handshake said;
+    for (const auto& item : json.at("items")) said.items.push_back({item.at(0), item.at(1), item.at(2)});
+    said.facts = json.at("facts");
+    return said;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format(
+        "what the partner said at the start is no handshake: is it of another version? ({})", error.what()));
+  }
+}
+
 std::string Link::handshake(const std::vector<HandshakeItem>& items, const std::string& facts) {
   std::vector<HandshakeItem> mine = items;
   mine.push_back({"number of bulk cells", std::to_string(mine_.cell_count())});
-  const auto json = nlohmann::json::parse(swap_text(to_json(mine, facts)));
-  std::vector<HandshakeItem> theirs;
-  for (const auto& item : json.at("items")) theirs.push_back({item.at(0), item.at(1), item.at(2)});
+  const Handshake said = read_handshake(swap_text(to_text({mine, facts})));
+  const std::vector<HandshakeItem>& theirs = said.items;
 
   const bool fluid = world_.side() == Side::fluid;
   const auto differences = from_rank_0(fmt::format(
@@ -81,7 +110,7 @@ std::string Link::handshake(const std::vector<HandshakeItem>& items, const std::
                     "LIGGGHTS script fit it.",
                     differences));
   }
-  return json.at("facts");
+  return said.facts;
 }
 
 }  // namespace demvof

@@ -13,4 +13,13 @@ namespace demvof {
 std::vector<std::string> disagreements(const std::vector<HandshakeItem>& fluid,
                                        const std::vector<HandshakeItem>& particles);
 
+/// What a side says at the start. facts: JSON text of its own.
+struct Handshake {
+  std::vector<HandshakeItem> items;
+  std::string facts;
+};
+std::string to_text(const Handshake& handshake);
+/// Throws InputError when it is none of to_text().
+Handshake read_handshake(const std::string& text);
+
 }  // namespace demvof

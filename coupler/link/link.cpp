@@ -12,6 +12,7 @@
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
+#include "coupler/link/text_message.hpp"
 
 namespace demvof {
 namespace {
@@ -152,13 +153,10 @@ void Link::receive_rows(std::vector<CellId>& cells, std::vector<double>& rows, i
 std::string Link::swap_text(const std::string& mine) {
   finish_sends();
   if (world_.rank() == 0) {
-    Words message(1 + (mine.size() + word - 1) / word);
-    message[0] = mine.size();
-    std::memcpy(message.data() + 1, mine.data(), mine.size());
+    const Words message = words_of(mine);
     for (int to = 0; to < world_.partner_size(); ++to) post(to, tag_text, message);
   }
-  const Words message = take(0, tag_text, "a report");
-  return {reinterpret_cast<const char*>(message.data() + 1), message[0]};
+  return text_in(take(0, tag_text, "a report"));
 }
 
 void Link::send_bytes(const void* bytes, std::size_t size) {

@@ -1,5 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The coupler's unit and mpi tests pass under the address and undefined-behaviour sanitizers.
+# Tests pass under sanitizers: sanitizers.sh [asan] [tsan], by default both. asan: all programs under the address, leak
+# and undefined-behaviour sanitizers; tsan: the coupler's unit and mpi tests under the thread sanitizer.
 cd "$(dirname "$0")/../.." || exit 2
-cmake --preset asan && cmake --build --preset asan && ctest --preset asan --no-tests=error
+for preset in ${*:-asan tsan}; do
+    cmake --preset "$preset" && cmake --build --preset "$preset" && ctest --preset "$preset" --no-tests=error || exit
+done

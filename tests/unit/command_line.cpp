@@ -29,6 +29,12 @@ std::string output_of_shell(const std::string& line) {
   return text;
 }
 
+bool has_children(const std::vector<std::string>& command) {
+  const ChildProcess child(command);
+  usleep(300000);
+  return child.has_children();
+}
+
 TEST(ShellLine, IsReadByAShellAsItWasMeant) {
   const std::vector<std::string> words = {"printf", "<%s>", "plain", "with blank", "it's",
                                           "$HOME",  "",     "a;b",   "[1, 2]"};
@@ -50,6 +56,33 @@ TEST(RunExitCode, CountsASideKilledByASignalAsALostPartner) {
 TEST(ChildProcess, TellsItsExitCodeAndItsSignal) {
   EXPECT_EQ(ChildProcess({"sh", "-c", "exit 7"}).wait(), 7);
   EXPECT_EQ(ChildProcess({"sh", "-c", "kill -9 $$"}).wait(), 128 + 9);
+}
+
+TEST(ChildProcess, KnowsWhetherItHasProgramsOfItsOwn) {
+  EXPECT_TRUE(has_children({"sh", "-c", "sleep 5; :"}));
+  EXPECT_FALSE(has_children({"sleep", "5"}));
+  EXPECT_FALSE(has_children({"sh", "-c", "sleep 0 & exec sleep 5"})) << "an unburied one does not run";
+}
+
+/// Open MPI 4 can wait for itself for ever after its programs have gone.
+TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("demvof_mpirun_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "mpirun") << "#!/bin/sh\nsleep 2 & wait\nexec sleep 1000\n";
+  fs::permissions(folder / "mpirun", fs::perms::owner_all);
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder.string() + ":" + path).c_str(), 1);
+  LaunchCommand command;
+  command.words = {"mpirun"};
+  command.pair = true;
+  std::string said;
+  Watch watch;
+  watch.on_line = [&](const std::string& line) { said += line; };
+  watch.on_tick = [] {};
+  EXPECT_EQ(launch(command, watch), 4);
+  EXPECT_EQ(said, "mpirun does not end though its programs have: killing it");
+  setenv("PATH", path.c_str(), 1);
+  fs::remove_all(folder);
 }
 
 TEST(ChildProcess, NamesAProgramThatDoesNotStart) {

@@ -5,6 +5,9 @@
 
 #include <cfenv>
 
+#include "coupler/base/errors.hpp"
+#include "coupler/link/text_message.hpp"
+
 namespace demvof {
 namespace {
 
@@ -35,6 +38,28 @@ TEST(Handshake, DoesNotReadTextAsNumbers) {
   std::feclearexcept(FE_ALL_EXCEPT);
   EXPECT_TRUE(agree({"hash", "5e1234ab", -1}, {"hash", "5e1234ab", -1}));
   EXPECT_FALSE(std::fetestexcept(FE_OVERFLOW));
+}
+
+TEST(Handshake, NumbersBeyondAllSizeAreNoReasonToDie) {
+  feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);  // as OpenFOAM does
+  EXPECT_FALSE(agree({"g", "1.7e308", 1e-6}, {"g", "-1.7e308", 1e-6}));
+  EXPECT_FALSE(agree({"g", "1", 1e-6}, {"g", "1e999", 1e-6}));
+  EXPECT_THROW(read_handshake(R"({"items": [["g", "1", 1e999]], "facts": "{}"})"), InputError);
+  fedisableexcept(FE_ALL_EXCEPT);
+}
+
+TEST(Handshake, IsReadBackOrRefused) {
+  const Handshake said = read_handshake(to_text({{{"g", "1 2", 1e-6}, {"version", "0.1"}}, "{}"}));
+  ASSERT_EQ(said.items.size(), 2u);
+  EXPECT_EQ(said.items[0].value, "1 2");
+  EXPECT_EQ(said.items[1].tolerance, -1);
+  EXPECT_EQ(said.facts, "{}");
+  for (const char* wrong : {"", "[]", "{}", R"({"items": [[1, 2]], "facts": ""})", R"({"items": [], "fac)"})
+    EXPECT_THROW(read_handshake(wrong), InputError) << wrong;
+  EXPECT_EQ(text_in(words_of("nine bytes")), "nine bytes");
+  EXPECT_THROW(text_in({}), RunError);
+  EXPECT_THROW(text_in({9, 0}), RunError);
+  EXPECT_THROW(text_in({~0ULL, 0}), RunError);
 }
 
 TEST(Handshake, NumbersOfDifferentCountOrWithText) {
