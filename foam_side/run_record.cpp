@@ -272,6 +272,8 @@ void RunRecord::write_row(const Flow& flow, const ParticleReport* particles) {
   const Quantities quantities = all_quantities(flow, particles);
   const std::string nonsense = find_nonsense({quantities.begin(), quantities.end()});
   if (!nonsense.empty()) throw RunError(nonsense);
+  if (const auto speed = quantities.find("max_speed"); speed != quantities.end())
+    largest_speed_ = std::max(largest_speed_, speed->second);
   last_row_ = flow.time.value();
   if (!writes_) return;
   std::vector<double> row;
@@ -367,8 +369,8 @@ RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   if (!writes_) return status;
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   RunResults& results = shared_->results;
-  const Verdict verdict =
-      judge(results, flow.clock.largest_courant, pays_drag_impulse(parameters_.coupling.exchange));
+  const Verdict verdict = judge(results, parameters_.limits, {flow.clock.largest_courant, largest_speed_},
+                                pays_drag_impulse(parameters_.coupling.exchange));
   results.warnings = warnings(flow);
   results.warnings.insert(results.warnings.begin(), verdict.warnings.begin(), verdict.warnings.end());
   results.status = verdict.failure ? RunStatus::failed : status;

@@ -92,6 +92,7 @@ class RunRecord {
   std::optional<Books> books_;
   long windows_before_ = 0;       // of the run that this one continues
   double initial_potential_ = 0;  // J
+  double largest_speed_ = 0;      // in the rows of history.csv, m/s
   double last_row_ = -1;          // time of the last row of history.csv, s
   double next_row_ = 0;           // time of the next row of history.csv, s
   struct {

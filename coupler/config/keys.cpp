@@ -177,6 +177,9 @@ std::vector<Section> make_sections() {
       forces,
       {"scene", "What the run solves: found from the scene (auto) or forced (on, off)."},
       {"output", "What is written, and when."},
+      {"limits",
+       "What a run may not exceed: beyond, its status is failed. A tenth of each is a warning, and so is the "
+       "first lost particle."},
   };
 }
 
@@ -355,6 +358,19 @@ std::vector<Key> make_keys() {
           "Times shown in report.html; an empty list: begin, four between, end; times after the end are left "
           "out.",
           DEMVOF_AT(output.pictures)),
+      changes_no_result(key("output.states", integer(1, 1000),
+                            "States that the run can be continued from: so many, the newest, are kept.",
+                            DEMVOF_AT(output.states))),
+
+      key("limits.books", above(0, number("-")), "Largest conservation.exchange and conservation.momentum.",
+          DEMVOF_AT(limits.books)),
+      key("limits.volume", above(0, number("-")),
+          "Largest conservation.solid_volume and conservation.liquid_volume.", DEMVOF_AT(limits.volume)),
+      key("limits.courant", above(0, number("-")), "Most cells that the fluid may cross in a step.",
+          DEMVOF_AT(limits.courant)),
+      key("limits.lost_particles", at_least(0, at_most(1, number("-"))),
+          "Largest share of the particles that leave the box where the script has no outlet.",
+          DEMVOF_AT(limits.lost_particles)),
   };
 }
 

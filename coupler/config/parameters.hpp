@@ -77,7 +77,16 @@ struct OutputParameters {
   double interval = 0;               // s between field outputs; 0: only at the end
   double history_interval = 0;       // s between rows of history.csv; 0: every window
   std::vector<std::string> history;  // recorded quantities; empty: all that the scene has
+  int states = 2;                    // that the run can be continued from: so many, the newest, are kept
   std::vector<double> pictures;      // times shown in report.html, s; empty: begin, four between, end
+};
+
+/// What a run may not exceed: beyond, its status is failed. A tenth of each is a warning.
+struct LimitParameters {
+  double books = 0.01;          // conservation.exchange and .momentum, -
+  double volume = 0.1;          // conservation.solid_volume and .liquid_volume, -
+  double courant = 50;          // cells that the fluid crosses in a step
+  double lost_particles = 0.1;  // of all particles; the first is a warning
 };
 
 struct CaseParameters {
@@ -90,6 +99,7 @@ struct CaseParameters {
   ForceParameters forces;
   SceneParameters scene;
   OutputParameters output;
+  LimitParameters limits;
 };
 
 }  // namespace demvof

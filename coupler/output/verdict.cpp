@@ -8,57 +8,71 @@
 namespace demvof {
 namespace {
 
-// Exchange and momentum close to round-off in every run that is right; fixes of a script may take some of the
-// particles' momentum. The volumes depend on meshes and, for the liquid, on what goes through open
-// boundaries.
-constexpr double worst_books = 0.01;                      // relative
-constexpr double fast_courant = 5, absurd_courant = 100;  // cells per step
-
 constexpr auto smaller_steps =
     "What to try: smaller time steps (maxCo in controlDict, coupling.window, the script's timestep).";
+constexpr double warned_of = 0.1;      // of a limit
+constexpr double absurd_speed = 1000;  // m/s: no flow of incompressible fluids
+
+/// Weighs one number against its limit. That it is no number is beyond every limit.
+/// explained: the section that explains the warning.
+void weigh(Verdict& verdict, const std::string& key, double value, double limit, const std::string& said,
+           const char* explained) {
+  if (!(value <= limit) && !verdict.failure)
+    verdict.failure = fmt::format("{} ({}: {:g})", said, key, limit);
+  else if (!(value <= warned_of * limit))
+    verdict.warnings.push_back(said + " " + explained);
+}
 
 }  // namespace
 
-Verdict judge(const RunResults& results, double largest_courant, bool exchange_closes) {
+Verdict judge(const RunResults& results, const LimitParameters& limits, const Fastest& fastest,
+              bool exchange_closes) {
   Verdict verdict;
-  const auto fail = [&verdict](const std::string& why) {
-    if (!verdict.failure) verdict.failure = why;
-  };
-  if (const long lost = results.particles.lost; lost > 0)
-    verdict.warnings.push_back(
-        fmt::format("{} of {} particles were lost: they left the box where the script has no outlet. If they "
-                    "should not: a "
-                    "smaller timestep in the script, stiffer contacts, walls where the box ends "
-                    "(docs/warnings.md, Lost particles)",
-                    lost, results.particles.initial + results.particles.inserted));
   const auto& errors = results.conservation;
-  if (exchange_closes && !(errors.exchange <= worst_books))
-    fail(fmt::format(
-        "conservation.exchange is {:.2g}: the momentum that passed between particles and fluid does not add "
-        "up. {}",
-        errors.exchange, smaller_steps));
-  if (!(errors.momentum <= worst_books))
-    fail(fmt::format(
-        "conservation.momentum is {:.2g}: the particles' momentum changed by more than the forces on them. "
-        "What to try: a script without commands that change particles beside forces (fix adapt of sizes, "
-        "velocity, set); else smaller time steps.",
-        errors.momentum));
-  for (const auto& [name, error] :
-       {std::pair("solid_volume", errors.solid_volume), std::pair("liquid_volume", errors.liquid_volume)})
-    if (!(error <= worst_books))
-      verdict.warnings.push_back(fmt::format(
-          "conservation.{} is {:.2g}: volume came or went{} (docs/warnings.md, Volume that came or went)",
-          name, error,
-          std::string(name) == "liquid_volume" ? ", if not through an open boundary, then wrongly"
-                                               : " between particles, bulk grid and mesh"));
-  if (!(largest_courant <= fast_courant))
-    verdict.warnings.push_back(
+  const char* books = "(docs/warnings.md, Momentum that came or went)";
+  if (exchange_closes)
+    weigh(verdict, "limits.books", errors.exchange, limits.books,
+          fmt::format("conservation.exchange is {:.2g}: the momentum that passed between particles and fluid "
+                      "does not add up. {}",
+                      errors.exchange, smaller_steps),
+          books);
+  weigh(
+      verdict, "limits.books", errors.momentum, limits.books,
+      fmt::format("conservation.momentum is {:.2g}: the particles' momentum changed by more than the forces "
+                  "on them. What to try: a script without commands that change particles beside forces (fix "
+                  "adapt of sizes, velocity, set); else smaller time steps.",
+                  errors.momentum),
+      books);
+  const char* volume = "(docs/warnings.md, Volume that came or went)";
+  weigh(
+      verdict, "limits.volume", errors.solid_volume, limits.volume,
+      fmt::format("conservation.solid_volume is {:.2g}: volume came or went between particles, bulk grid and "
+                  "mesh. What to try: coupling.mapping.to_fine: conservative, a bulk grid inside the mesh",
+                  errors.solid_volume),
+      volume);
+  weigh(verdict, "limits.volume", errors.liquid_volume, limits.volume,
+        fmt::format("conservation.liquid_volume is {:.2g}: volume came or went, if not through an open "
+                    "boundary, then wrongly",
+                    errors.liquid_volume),
+        volume);
+  weigh(verdict, "limits.courant", fastest.courant, limits.courant,
         fmt::format("the fluid crossed up to {:.3g} cells in a step: what is that fast is not resolved in "
-                    "time (docs/warnings.md, Courant number)",
-                    largest_courant));
-  if (!(largest_courant <= absurd_courant))
-    fail(fmt::format("the fluid crossed up to {:.3g} cells in a step: the flow had left what is physical. {}",
-                     largest_courant, smaller_steps));
+                    "time. {}",
+                    fastest.courant, smaller_steps),
+        "(docs/warnings.md, Courant number)");
+  weigh(verdict, "an incompressible fluid, m/s", fastest.speed, absurd_speed,
+        fmt::format("the fluid reached {:.3g} m/s. {}", fastest.speed, smaller_steps),
+        "(docs/warnings.md, Fast fluid)");
+  const long all = results.particles.initial + results.particles.inserted, lost = results.particles.lost;
+  const double share = all > 0 ? static_cast<double>(lost) / static_cast<double>(all) : 0;
+  const std::string said = fmt::format(
+      "{} of {} particles were lost: they left the box where the script has no outlet. If they "
+      "should not: a smaller timestep in the script, stiffer contacts, walls where the box ends",
+      lost, all);
+  const char* lost_particles = "(docs/warnings.md, Lost particles)";
+  weigh(verdict, "limits.lost_particles", share, limits.lost_particles, said, lost_particles);
+  if (lost > 0 && share <= warned_of * limits.lost_particles)
+    verdict.warnings.push_back(said + " " + lost_particles);
   return verdict;
 }
 

@@ -251,6 +251,7 @@ def out_with_the_stream():
         for i in range(4):
             case.particles.append(Particle((0.03 + 0.012 * i, 0.008 + 0.001 * i, 0.01), 3e-3, 1000, (0.2, 0, 0)))
         case.end_time = 0.15
+        case.sections["limits"] = {"lost_particles": 1}
         if outlet:
             case.script_tail = ("fix outlet_mesh all mesh/surface file outlet.stl type 1\n"
                                 "fix outlet all massflow/mesh mesh outlet_mesh vec_side 1 0 0 count once "
