@@ -186,6 +186,26 @@ void Dem::write_restart(const fs::path& file) {
   });
 }
 
+RandomStates Dem::random_states() {
+  RandomStates here = demvof::random_states(*liggghts_);
+  const int streams = static_cast<int>(here.names.size());
+  int ranks;
+  check_mpi(MPI_Comm_size(world_, &ranks), "MPI_Comm_size");
+  std::vector<int> all(static_cast<std::size_t>(ranks) * here.names.size());
+  check_mpi(MPI_Gather(here.states[0].data(), streams, MPI_INT, all.data(), streams, MPI_INT, 0, world_),
+            "MPI_Gather");
+  here.states.clear();
+  for (auto row = all.begin(); row != all.end(); row += streams) here.states.emplace_back(row, row + streams);
+  return here;
+}
+
+void Dem::go_on_from(const RandomStates& saved) {
+  int rank, ranks;
+  check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
+  check_mpi(MPI_Comm_size(world_, &ranks), "MPI_Comm_size");
+  set_random_states(*liggghts_, saved, rank, ranks);
+}
+
 long Dem::step() const {
   return static_cast<long>(liggghts_->update->ntimestep);
 }

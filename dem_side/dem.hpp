@@ -14,6 +14,7 @@
 #include "coupler/base/vec3.hpp"
 #include "dem_side/contact_times.hpp"
 #include "dem_side/particle_arrays.hpp"
+#include "dem_side/random_streams.hpp"
 
 namespace LAMMPS_NS {
 class FixInsertStream;
@@ -78,7 +79,9 @@ class Dem {
   /// Writes particles, their rows and contacts, and the state of the script's fixes. Collective; the run goes
   /// on as if nothing had happened.
   void write_restart(const std::filesystem::path& file);
-  long step() const;  // of LIGGGHTS, the script's own included
+  RandomStates random_states();                // on rank 0 of all ranks; collective
+  void go_on_from(const RandomStates& saved);  // after set_up
+  long step() const;                           // of LIGGGHTS, the script's own included
 
   ParticleArrays particles() const;
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles

@@ -29,6 +29,7 @@ fs::path restart_file(const fs::path& run, long window) {
 
 StateFiles write_particle_restart(const fs::path& run, long window, Dem& dem, int steps) {
   const long count = dem.census().count;
+  const RandomStates random = dem.random_states();
   int rank;
   check_mpi(MPI_Comm_rank(dem.world(), &rank), "MPI_Comm_rank");
   StateFiles files;
@@ -37,7 +38,10 @@ StateFiles write_particle_restart(const fs::path& run, long window, Dem& dem, in
     return files;
   }
   fs::create_directories(restart_folder(run, window));
-  const nlohmann::json facts = {{"step", dem.step()}, {"particles", count}, {"steps_per_window", steps}};
+  const nlohmann::json facts = {{"step", dem.step()},
+                                {"particles", count},
+                                {"steps_per_window", steps},
+                                {"random", {{"names", random.names}, {"states", random.states}}}};
   write_file_atomically(facts_file(run, window), facts.dump() + "\n");
   // LIGGGHTS does not look whether its writes succeed.
   PipedFile file(restart_file(run, window));
@@ -59,7 +63,8 @@ RestartPoint open_state(const ProgramOptions& options, const CaseParameters& par
   return point;
 }
 
-int steps_of_continued(const fs::path& run, long window, const Dem& dem, const std::string& script) {
+LastParticles read_particle_restart(const fs::path& run, long window, const Dem& dem,
+                                    const std::string& script) {
   std::ifstream stream(facts_file(run, window));
   const auto facts = nlohmann::json::parse(stream, nullptr, false);
   if (!facts.is_object())
@@ -73,7 +78,8 @@ int steps_of_continued(const fs::path& run, long window, const Dem& dem, const s
         "variable ${{continued}} is 1 the script has to read ${{restart_file}} in place of making a box and "
         "particles (docs/howto_your_own_case.md)",
         script, dem.census().count, dem.step(), count, step));
-  return facts.at("steps_per_window");
+  const nlohmann::json& random = facts.at("random");
+  return {facts.at("steps_per_window"), {random.at("names"), random.at("states")}};
 }
 
 }  // namespace demvof

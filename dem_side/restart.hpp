@@ -22,9 +22,13 @@ StateFiles write_particle_restart(const std::filesystem::path& run, long window,
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
                         const OwnWorld& world);
 
-/// DEM steps per window of the run that is continued. Throws InputError when the script has not gone on from
-/// its restart file. Collective.
-int steps_of_continued(const std::filesystem::path& run, long window, const Dem& dem,
-                       const std::string& script);
+/// What LIGGGHTS's restart file does not hold.
+struct LastParticles {
+  int steps;  // DEM steps per window
+  RandomStates random;
+};
+/// Throws InputError when the script has not gone on from its restart file. Collective.
+LastParticles read_particle_restart(const std::filesystem::path& run, long window, const Dem& dem,
+                                    const std::string& script);
 
 }  // namespace demvof

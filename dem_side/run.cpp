@@ -22,6 +22,7 @@
 #include "dem_side/forces.hpp"
 #include "dem_side/output.hpp"
 #include "dem_side/particle_grid.hpp"
+#include "dem_side/possible_particles.hpp"
 #include "dem_side/replacement.hpp"
 #include "dem_side/report.hpp"
 #include "dem_side/restart.hpp"
@@ -94,6 +95,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Dem dem(world.comm(), script, options.out / "particles.log",
           start ? restart_file(options.out, start->window) : fs::path());
   install_signal_handlers();
+  require_possible_particles(dem.particles(), world.comm(), script.string());
   if (parameters.gravity) dem.set_gravity(parameters.gravity->at(0));
   int steps = 0;  // of a window
   if (coupling.adaptive_window)
@@ -104,11 +106,14 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   std::optional<Replacement> replacement;
   if (coupling.phase_interchange == PhaseInterchange::replacement)
     replacement.emplace(dem, coupling.interchange_speed);
+  std::optional<LastParticles> last;
   if (start) {
-    const int last = steps_of_continued(options.out, start->window, dem, script.string());
-    forces.go_on_from(coupling.adaptive_window ? last * dem.time_step() : coupling.window, last);
+    last = read_particle_restart(options.out, start->window, dem, script.string());
+    forces.go_on_from(coupling.adaptive_window ? last->steps * dem.time_step() : coupling.window,
+                      last->steps);
   }
   dem.set_up();
+  if (last) dem.go_on_from(last->random);
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);
 

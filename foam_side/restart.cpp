@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include "IFstream.H"
@@ -15,17 +16,17 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
+#include "foam_side/gathered_state.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
 #include "foam_side/window_means.hpp"
+#include "labelIOList.H"
 
 namespace demvof {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr int states_kept = 2;  // one to go on from, and one before it should that be damaged
 
 fs::path file_of_rank(const fs::path& run, long window) {
   return restart_folder(run, window) / fmt::format("fluid.{}", Foam::Pstream::myProcNo());
@@ -81,11 +82,25 @@ void read_components(const json& state, const char* name, Foam::vectorField& val
       row.at(static_cast<std::size_t>(3 * cell + axis));
 }
 
+/// Of this rank's cells in the mesh of all ranks; on a mesh that changes there are none that last.
+std::vector<int> cell_numbers(const Flow& flow) {
+  const Foam::fvMesh& mesh = flow.mesh;
+  std::vector<int> numbers(static_cast<std::size_t>(mesh.nCells()));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  if (!Foam::Pstream::parRun() || flow.refinement) return numbers;
+  const Foam::labelIOList given(Foam::IOobject("cellProcAddressing", mesh.facesInstance(),
+                                               Foam::polyMesh::meshSubDir, mesh, Foam::IOobject::MUST_READ,
+                                               Foam::IOobject::NO_WRITE, false));
+  std::copy(given.begin(), given.end(), numbers.begin());
+  return numbers;
+}
+
 json flow_state(const Flow& flow, const ForceParameters& forces) {
   json state = {{"time_step", flow.time.deltaTValue()},
                 {"longest_step", flow.clock.limit},
                 {"largest_courant", flow.clock.largest_courant},
-                {"cells", flow.mesh.nCells()}};
+                {"cells", flow.mesh.nCells()},
+                {"cell_numbers", cell_numbers(flow)}};
   const vector& g = flow.g.value();
   state["gravity"] = {g.x(), g.y(), g.z()};
   if (flow.refinement) state["crossed"] = flow.refinement->crossed;
@@ -197,6 +212,10 @@ void on_every_rank(const OwnWorld& world, const std::function<void()>& work) {
   std::string error;
   try {
     work();
+  } catch (const Foam::IOerror& e) {
+    error = fmt::format("{}: {}: is the disk full?", e.ioFileName(), e.message());
+  } catch (const Foam::error& e) {  // its what() says nothing
+    error = e.message();
   } catch (const std::exception& e) {
     error = e.what();
   }
@@ -241,17 +260,15 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
   write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
 }
 
-/// Reads from the state that this rank has written.
+/// read(state); what is not as it was written is the user's to know.
 template <class Read>
-auto read_part(const fs::path& run, long window, const Read& read) {
-  const fs::path path = file_of_rank(run, window);
+auto part_of(const json& state, const Read& read) {
   try {
-    std::ifstream stream(path, std::ios::binary);
-    return read(json::from_cbor(stream));
+    return read(state);
   } catch (const json::exception& error) {
-    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+    throw InputError(fmt::format("--continue: the state of the fluid: {}", error.what()));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+    throw InputError(fmt::format("--continue: the state of the fluid: {}", error.what()));
   }
 }
 
@@ -284,38 +301,66 @@ void write_state(const fs::path& run, const CaseParameters& parameters, long win
     write_restart_point(run,
                         {window, flow.time.value(), flow.time.timeName(),
                          state_frame(parameters, world.size()), resolved_configuration(parameters), all},
-                        states_kept);
+                        parameters.output.states);
 }
 
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
                         const OwnWorld& world) {
   const RestartPoint point = read_restart_point(
       options.out, options.from, state_frame(parameters, world.size()), parameters.coupling.end_time);
-  const std::string own = fmt::format("restart/{}/fluid.{}", point.window, world.rank());
+  const std::string states = fmt::format("restart/{}/fluid.", point.window);
+  const auto ranks = std::count_if(point.files.begin(), point.files.end(),
+                                   [&](const auto& file) { return file.first.rfind(states, 0) == 0; });
+  const std::string own =
+      ranks == world.size() ? states + std::to_string(world.rank()) : states;  // else its part of all
   const std::string fields =
       world.size() > 1 ? fmt::format("fluid/processor{}/", world.rank()) : std::string("fluid/");
   require_whole(options.out, point, [&](const std::string& name) {
-    return name == own || name.rfind(fields, 0) == 0 || (world.rank() == 0 && name == "history.csv");
+    return name == own || (own == states && name.rfind(own, 0) == 0) || name.rfind(fields, 0) == 0 ||
+           (world.rank() == 0 && name == "history.csv");
   });
   return point;
 }
 
-CellValues<BulkSurface> read_seen_surface(const fs::path& run, long window) {
-  return read_part(run, window,
-                   [](const json& state) { return cell_values<BulkSurface>(state.at("surface")); });
+json read_fluid_restart(const fs::path& run, const RestartPoint& point, const Flow& flow,
+                        const BulkPartition& mine, const OwnWorld& world) {
+  const auto file = [&](int rank) {
+    return restart_folder(run, point.window) / fmt::format("fluid.{}", rank);
+  };
+  int ranks = 0;  // that have written it
+  while (point.files.count(file(ranks).lexically_relative(run).generic_string())) ++ranks;
+  fs::path path;
+  try {
+    const auto read = [&](int rank) {
+      path = file(rank);
+      std::ifstream stream(path, std::ios::binary);
+      return json::from_cbor(stream);
+    };
+    if (ranks == world.size()) return read(world.rank());
+    std::vector<json> all;
+    for (int rank = 0; rank < ranks; ++rank) all.push_back(read(rank));
+    return gathered_state(all, mine.begin(world.rank()), mine.end(world.rank()), world.rank() == 0,
+                          cell_numbers(flow));
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
+  }
 }
 
-OpeningsToBulk::State read_openings(const fs::path& run, long window) {
-  return read_part(run, window, [](const json& state) -> OpeningsToBulk::State {
+CellValues<BulkSurface> seen_surface(const json& saved) {
+  return part_of(saved, [](const json& state) { return cell_values<BulkSurface>(state.at("surface")); });
+}
+
+OpeningsToBulk::State seen_openings(const json& saved) {
+  return part_of(saved, [](const json& state) -> OpeningsToBulk::State {
     const json& openings = state.at("openings");
     return {{cell_values<double>(openings.at("shares")), cell_values<BulkWalls>(openings.at("walls"))},
             cell_values<double>(openings.at("shares_of_mesh"))};
   });
 }
 
-WindowSteps read_fluid_restart(const fs::path& run, long window, Flow& flow, Bridge& bridge,
-                               RunRecord& record, const ParticleReport& particles) {
-  return read_part(run, window, [&](const json& state) -> WindowSteps {
+WindowSteps go_on_from(const json& saved, long window, Flow& flow, Bridge& bridge, RunRecord& record,
+                       const ParticleReport& particles) {
+  return part_of(saved, [&](const json& state) -> WindowSteps {
     std::vector<Bridge::State> exchange;
     for (const json& fluid : state.at("exchange"))
       exchange.push_back(

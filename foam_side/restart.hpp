@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "coupler/config/program_options.hpp"
 #include "coupler/link/fluid_end.hpp"
@@ -31,14 +32,19 @@ void write_state(const std::filesystem::path& run, const CaseParameters& paramet
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
                         const OwnWorld& world);
 
-/// The surface as the particles of that state know it: with it the run goes on. Throws as the next.
-CellValues<BulkSurface> read_seen_surface(const std::filesystem::path& run, long window);
-/// And what the mesh leaves of the bulk grid.
-OpeningsToBulk::State read_openings(const std::filesystem::path& run, long window);
+/// What the time folder does not hold, of this rank; of states that another number of ranks has left, its
+/// part of all. Throws InputError when a file is not what was written.
+nlohmann::json read_fluid_restart(const std::filesystem::path& run, const RestartPoint& point,
+                                  const Flow& flow, const BulkPartition& mine, const OwnWorld& world);
 
-/// Reads it into a flow that open_flow has made from the time folder. particles: dem_side's first report.
-/// Throws InputError when a file is not there or not what was written.
-WindowSteps read_fluid_restart(const std::filesystem::path& run, long window, Flow& flow, Bridge& bridge,
-                               RunRecord& record, const ParticleReport& particles);
+/// The surface as the particles of that state know it: with it the run goes on. Throws InputError.
+CellValues<BulkSurface> seen_surface(const nlohmann::json& state);
+/// And what the mesh leaves of the bulk grid.
+OpeningsToBulk::State seen_openings(const nlohmann::json& state);
+
+/// Gives it to a flow that open_flow has made from the time folder. particles: dem_side's first report.
+/// Throws InputError.
+WindowSteps go_on_from(const nlohmann::json& state, long window, Flow& flow, Bridge& bridge,
+                       RunRecord& record, const ParticleReport& particles);
 
 }  // namespace demvof

@@ -63,11 +63,12 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   Bridge bridge(flow, parameters, grid, link.mine(), world.comm());
   ParticlesToFine& to_fine = bridge.particles_to_fine();
   SurfaceToBulk& surface = bridge.surface_to_bulk();
+  const json saved = start ? read_fluid_restart(options.out, *start, flow, link.mine(), world) : json();
   if (flow.scene.two_fluids && start)
-    surface.go_on_from(read_seen_surface(options.out, start->window));
+    surface.go_on_from(seen_surface(saved));
   else if (flow.scene.two_fluids)
     surface.news();  // all of it
-  if (start) bridge.openings_to_bulk().go_on_from(read_openings(options.out, start->window));
+  if (start) bridge.openings_to_bulk().go_on_from(seen_openings(saved));
   FluidEnd::Start first = link.start(bridge.openings_to_bulk().told(), surface.seen());
   bridge.take(std::move(first.particles));
   const bool own_lengths = link.plan().own_lengths();
@@ -75,7 +76,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
   if (own_lengths) range = step_range(*parameters.coupling.adaptive_window, link.plan().steps.length);
   WindowSteps steps{range.shortest, range.shortest};
   if (start) {
-    steps = read_fluid_restart(options.out, start->window, flow, bridge, record, first.report);
+    steps = go_on_from(saved, start->window, flow, bridge, record, first.report);
     if (own_lengths) bridge.set_window(static_cast<double>(steps.last) * link.plan().steps.length);
     if (world.rank() == 0) go_back_to(options.out, *start);
   } else {

@@ -115,7 +115,7 @@ Cut cut_like(const Cut& given, const std::array<double, 3>& sides, int ranks) {
   return best;
 }
 
-void decompose(const fs::path& fluid, int ranks, const RunLogged& run,
+void decompose(const fs::path& fluid, int ranks, const std::string& command, const RunLogged& run,
                const std::function<void(const std::string&)>& say) {
   const auto change = [&](const std::string& what) {
     say(fmt::format("preparing the fluid case: {}: {}", dictionary, what));
@@ -128,7 +128,7 @@ void decompose(const fs::path& fluid, int ranks, const RunLogged& run,
     write_simple(fluid, cut);
     change(fmt::format("there is none; made with method simple, {} parts along the mesh's longest side, n {}",
                        ranks, text_of(cut)));
-    return run("decomposePar -force");
+    return run(command);
   }
 
   set("numberOfSubdomains", std::to_string(ranks));
@@ -146,10 +146,10 @@ void decompose(const fs::path& fluid, int ranks, const RunLogged& run,
       change(fmt::format("n {} is not for {} ranks; changed to {} in the copy", text_of(given), ranks,
                          text_of(cut)));
     }
-    return run("decomposePar -force");
+    return run(command);
   }
   try {
-    run("decomposePar -force");
+    run(command);
   } catch (const InputError& error) {
     // Packages have a stub in place of a library of another project (scotch, metis, kahip); it says so when
     // called.
@@ -160,7 +160,7 @@ void decompose(const fs::path& fluid, int ranks, const RunLogged& run,
         "method {} is a stub in this OpenFOAM; changed in the copy to method simple, {} parts along "
         "the mesh's longest side, n {}",
         method, ranks, text_of(cut)));
-    run("decomposePar -force");
+    run(command);
   }
 }
 

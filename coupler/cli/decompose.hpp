@@ -20,10 +20,10 @@ Cut cut_like(const Cut& given, const std::array<double, 3>& sides, int ranks);
 /// Runs one command in the case's folder; throws InputError with the end of its output when it fails.
 using RunLogged = std::function<void(const std::string& command)>;
 
-/// Decomposes the case in a folder for several ranks. Its system/decomposeParDict is changed where it was
-/// written for another number of ranks, or asks for a method that this installation has as a stub only, and
-/// made where it is missing; say is told of each change.
-void decompose(const std::filesystem::path& fluid, int ranks, const RunLogged& run,
-               const std::function<void(const std::string&)>& say);
+/// Decomposes the case in a folder for several ranks, by this command. Its system/decomposeParDict is changed
+/// where it was written for another number of ranks, or asks for a method that this installation has as a
+/// stub only, and made where it is missing; say is told of each change.
+void decompose(const std::filesystem::path& fluid, int ranks, const std::string& command,
+               const RunLogged& run, const std::function<void(const std::string&)>& say);
 
 }  // namespace demvof

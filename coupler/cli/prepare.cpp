@@ -63,25 +63,23 @@ std::string last_lines(const fs::path& log, std::size_t count) {
   return text;
 }
 
-/// Runs one command in the copied case, its output at the end of the log.
-void run_logged(const std::string& command, const RunFolder& folder) {
-  const fs::path log = folder.prepare_log();
+}  // namespace
+
+void run_logged(const std::string& command, const fs::path& where, const fs::path& log) {
   std::ofstream(log, std::ios::app) << "\n$ " << command << std::endl;
   const int file = open(log.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (file < 0)
     throw std::runtime_error(fmt::format("cannot write {}: {}", log.string(), std::strerror(errno)));
   ChildOptions options;
-  options.directory = folder.fluid();
+  options.directory = where;
   options.environment = foam_environment();
   options.output = file;
   const int code = ChildProcess({"/bin/sh", "-c", command}, options).wait();
   close(file);
   if (code != 0)
     throw InputError(fmt::format("{} failed (exit code {}) in {}; the end of {}:{}", command, code,
-                                 folder.fluid().string(), log.string(), last_lines(log, 12)));
+                                 where.string(), log.string(), last_lines(log, 12)));
 }
-
-}  // namespace
 
 std::map<std::string, std::string> foam_environment() {
   return {{"WM_PROJECT_DIR", DEMVOF_FOAM_PROJECT_DIR}};
@@ -92,15 +90,16 @@ void prepare_case(const CaseParameters& parameters, const RunFolder& folder, boo
   folder.clear(force);
   std::ofstream(folder.prepare_log()) << "demvof prepare " << parameters.file << std::endl;
   copy_case(beside_case_file(parameters, parameters.fluid.case_folder), folder.fluid());
+  const auto run = [&](const std::string& command) {
+    run_logged(command, folder.fluid(), folder.prepare_log());
+  };
   for (const std::string& command : parameters.fluid.prepare) {
     say("preparing the fluid case: " + command);
-    run_logged(command, folder);
+    run(command);
   }
   if (parameters.fluid.ranks > 1) {
     say(fmt::format("preparing the fluid case: decomposePar for {} ranks", parameters.fluid.ranks));
-    decompose(
-        folder.fluid(), parameters.fluid.ranks,
-        [&](const std::string& command) { run_logged(command, folder); }, say);
+    decompose(folder.fluid(), parameters.fluid.ranks, "decomposePar -force", run, say);
   }
   folder.mark_ready();
 }

@@ -7,6 +7,7 @@
 #include "coupler/cli/launch.hpp"
 #include "coupler/cli/prepare.hpp"
 #include "coupler/cli/progress_display.hpp"
+#include "coupler/cli/redistribute.hpp"
 #include "coupler/cli/summary.hpp"
 #include "coupler/config/read_case.hpp"
 
@@ -58,13 +59,17 @@ int run_command(CaseOptions options, const RunOptions& run) {
     return 0;
   }
 
+  const auto say = [&run](const std::string& what) {
+    if (!run.quiet) fmt::print("{}\n", what);
+  };
   if (run.continues) {
-    for (const std::string& change : folder.require_continuable(run.from))
-      if (!run.quiet) fmt::print("not as in the run that goes on: {}\n", change);
-  } else if (!folder.ready())
-    prepare_case(parameters, folder, options.force, [&](const std::string& what) {
-      if (!run.quiet) fmt::print("{}\n", what);
-    });
+    const RunFolder::Continuable state = folder.require_continuable(run.from);
+    for (const std::string& change : state.changes) say("not as in the run that goes on: " + change);
+    if (state.point.frame.fluid_ranks != parameters.fluid.ranks)
+      redistribute(parameters, folder, state.point, say);
+  } else if (!folder.ready()) {
+    prepare_case(parameters, folder, options.force, say);
+  }
 
   folder.hold();
   remove_notes(folder.path());

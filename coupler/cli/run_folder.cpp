@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "coupler/cli/last_results.hpp"
+#include "coupler/cli/redistribute.hpp"
 #include "coupler/config/printable.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/output/restart_point.hpp"
@@ -24,10 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr auto marker = "prepared.json";  // written last by a preparation
 // Everything that prepare, run and report write, and nothing else is ever removed.
-constexpr const char* outputs[] = {"fluid",       "particles",    "surfaces",      "bulk",
-                                   "fluid.log",   "prepare.log",  marker,          "particles.log",
-                                   "history.csv", "results.json", "progress.json", "report.html",
-                                   "results.csv", "restart",      "earlier"};
+constexpr const char* outputs[] = {
+    "fluid",       "particles",     "surfaces",    "bulk",         "fluid.log",     "prepare.log",
+    marker,        "particles.log", "history.csv", "results.json", "progress.json", "report.html",
+    "results.csv", "restart",       "earlier",     "fluid.part",   "fluid.new"};
 constexpr const char* result_files[] = {"results.json", "history.csv", "progress.json"};
 
 std::string read_text(const fs::path& path) {
@@ -67,38 +68,46 @@ bool RunFolder::has_results() const {
                      [&](const char* file) { return fs::exists(path_ / file); });
 }
 
-std::string RunFolder::preparation() const {
+std::string RunFolder::preparation(int ranks) const {
   const FluidParameters& fluid = parameters_.fluid;
   const fs::path original = fs::weakly_canonical(beside_case_file(parameters_, fluid.case_folder));
-  return nlohmann::ordered_json{
-             {"case", original.string()}, {"ranks", fluid.ranks}, {"prepare", fluid.prepare}}
+  return nlohmann::ordered_json{{"case", original.string()}, {"ranks", ranks}, {"prepare", fluid.prepare}}
              .dump(2) +
          "\n";
 }
 
 bool RunFolder::ready() const {
   const fs::path mark = path_ / marker;
-  return fs::exists(mark) && !has_results() && read_text(mark) == preparation() &&
+  return fs::exists(mark) && !has_results() && read_text(mark) == preparation(parameters_.fluid.ranks) &&
          last_change(beside_case_file(parameters_, parameters_.fluid.case_folder)) <=
              fs::last_write_time(mark);
 }
 
-std::vector<std::string> RunFolder::require_continuable(std::optional<long> from) const {
+RunFolder::Continuable RunFolder::require_continuable(std::optional<long> from) const {
   if (fs::exists(path_ / "restart")) hold();
-  const RestartPoint point = read_restart_point(
-      path_, from, state_frame(parameters_, parameters_.fluid.ranks), parameters_.coupling.end_time);
-  if (read_text(path_ / marker) != preparation())
+  constexpr int any_ranks = 0;
+  const RestartPoint point =
+      read_restart_point(path_, from, state_frame(parameters_, any_ranks), parameters_.coupling.end_time);
+  settle_division(path_, point);
+  const int ranks = point.frame.fluid_ranks;
+  const std::string prepared = read_text(path_ / marker);
+  if (prepared != preparation(ranks) && prepared != preparation(parameters_.fluid.ranks))
     throw InputError(
-        fmt::format("--continue: the run in {} is of another fluid case (fluid.case, fluid.ranks or "
+        fmt::format("--continue: the run in {} is of another fluid case (fluid.case or "
                     "fluid.prepare differ); start a new run with another --out",
                     path_.string()));
+  if (ranks != parameters_.fluid.ranks && fs::exists(fluid() / "constant" / "dynamicMeshDict"))
+    throw InputError(
+        fmt::format("--continue: fluid.ranks was {} in the run in {}; on a mesh that changes "
+                    "it has to stay",
+                    ranks, path_.string()));
   require_whole(path_, point, [](const std::string&) { return true; });
   std::vector<std::string> changes = changed_keys(point.configuration, resolved_configuration(parameters_));
   changes.erase(
       std::remove_if(changes.begin(), changes.end(),
                      [](const std::string& line) { return line.rfind("coupling.end_time:", 0) == 0; }),
       changes.end());
-  return changes;
+  return {point, changes};
 }
 
 void RunFolder::clear(bool force) const {
@@ -141,7 +150,10 @@ void RunFolder::hold() const {
         fmt::format("--out {}: OpenFOAM and LIGGGHTS take no folder with '{}' in its path; choose "
                     "another --out",
                     printable(name), printable(name.substr(at, 1))));
-  fs::create_directories(path_);
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error)
+    throw InputError(fmt::format("--out {}: the folder cannot be made: {}", path_.string(), error.message()));
   lock_.emplace(path_, RunLock::Part::command);
 }
 
@@ -152,7 +164,7 @@ void RunFolder::wait_for_programs(double seconds) const {
 }
 
 void RunFolder::mark_ready() const {
-  write_file_atomically(path_ / marker, preparation());
+  write_file_atomically(path_ / marker, preparation(parameters_.fluid.ranks));
 }
 
 }  // namespace demvof

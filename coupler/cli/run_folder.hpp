@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupler/config/parameters.hpp"
+#include "coupler/output/restart_point.hpp"
 #include "coupler/output/run_lock.hpp"
 
 namespace demvof {
@@ -26,9 +27,12 @@ class RunFolder {
   bool ready() const;
   /// Throws InputError unless the run in the folder can go on with these parameters: it is that of the same
   /// fluid case, and has left a state that fits and is whole.
-  /// from: after so many windows; absent: the latest. Returns what else has changed in the case, one key per
-  /// line.
-  std::vector<std::string> require_continuable(std::optional<long> from) const;
+  /// from: after so many windows; absent: the latest. It may be divided for another number of fluid ranks.
+  struct Continuable {
+    RestartPoint point;
+    std::vector<std::string> changes;  // in the case since, one key per line
+  };
+  Continuable require_continuable(std::optional<long> from) const;
   /// Makes the folder, or empties it of an earlier run. Throws InputError rather than lose data: when
   /// it holds something else, when it is where the case itself lives, or when it holds results or another
   /// preparation and force is false.
@@ -42,7 +46,7 @@ class RunFolder {
 
  private:
   bool has_results() const;
-  std::string preparation() const;
+  std::string preparation(int ranks) const;
 
   const CaseParameters& parameters_;
   std::filesystem::path path_;

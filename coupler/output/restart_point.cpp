@@ -133,7 +133,8 @@ void require_fit(const fs::path& run, const RestartPoint& point, const StateFram
                fmt::format("[{}]", fmt::join(corner(then.bulk_lower), ", ")));
   require_same(run, same_place(then.bulk_upper, now.bulk_upper, size), "bulk_grid.upper",
                fmt::format("[{}]", fmt::join(corner(then.bulk_upper), ", ")));
-  require_same(run, now.fluid_ranks == then.fluid_ranks, "fluid.ranks", std::to_string(then.fluid_ranks));
+  require_same(run, now.fluid_ranks == 0 || now.fluid_ranks == then.fluid_ranks, "fluid.ranks",
+               std::to_string(then.fluid_ranks));
   if (end_time < point.time + 0.5 * then.window_length || end_time <= point.time * (1 + 1e-9))
     throw InputError(fmt::format("--continue: the run in {} is at {} s already; set coupling.end_time later",
                                  run.string(), point.time));

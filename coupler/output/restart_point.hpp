@@ -18,7 +18,7 @@ struct StateFrame {
   double window_length = 0;  // s; 0: windows have their own lengths
   Vec3 bulk_lower, bulk_upper;
   std::array<int, 3> bulk_cells{};
-  int fluid_ranks = 1;
+  int fluid_ranks = 1;  // for which its fluid case is divided; 0, where it is asked for: any
 };
 
 /// A state that a run can be continued from: the end of a window of which both programs have written

@@ -42,7 +42,7 @@ class Continued(unittest.TestCase):
         self.assertEqual(code, 0, text)
         return out
 
-    def compare(self, whole, parts, bound=BOUND):
+    def compare(self, whole, parts, bound=BOUND, times=True):
         """Every row of history.csv, and what ParaView finds."""
         a, b = Run(whole), Run(parts)
         self.assertEqual(list(a.times), list(b.times))
@@ -59,6 +59,8 @@ class Continued(unittest.TestCase):
         self.assertLess(worst[name], bound)
         for series in ("particles/particles.pvd", "bulk/bulk.pvd"):
             self.assertEqual((whole / series).read_text(), (parts / series).read_text())
+        if not times:
+            return
         times = [sorted(f.name for f in (out / "fluid").iterdir() if f.name[0].isdigit()) for out in (whole, parts)]
         self.assertEqual(*times)
 
@@ -83,6 +85,42 @@ class Continued(unittest.TestCase):
     def test_four_ranks(self):
         self.case()
         self.check_same("--fluid-ranks", "2", "--particle-ranks", "2")
+
+    def test_other_fluid_ranks(self):
+        """On one rank, on two, on one again."""
+        self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"added_mass": 0.5}])
+        whole = self.run_to("whole", 0.03)
+        parts = self.run_to("parts", 0.01)
+        self.run_to("parts", 0.02, "--continue", "--fluid-ranks", "2")
+        self.assertEqual(sum(f.is_dir() for f in (parts / "earlier").iterdir()), 1)
+        code, text, _ = self.run_case("parts", "--continue")
+        self.assertEqual(code, 0, text)
+        self.assertIn("dividing the state for 1 in place of 2 fluid ranks", text)
+        # On one and on two ranks all along: 1.3e-5, from the first impact on the surface at 0.02 s; before it 8e-11.
+        self.compare(whole, parts, bound=2.2e-5, times=False)
+        energy = [Run(run).history["particle_kinetic_energy"][:20] for run in (whole, parts)]
+        self.assertLess(max(abs(a - b) for a, b in zip(*energy)) / max(energy[0]), 3e-10)
+
+    def test_other_fluid_ranks_on_a_refining_mesh(self):
+        self.case(sections={"fluid": {"refinement": {"levels": 1}}})
+        part = self.run_to("parts", 0.005)
+        self.check_refused(part, "on a mesh that changes it has to stay", "--fluid-ranks", "2")
+
+    def test_insertion(self):
+        """Places, sizes and times of what the script puts in."""
+        self.case(script_tail="""region source block 0.004 0.036 0.004 0.016 0.030 0.038 units box
+fix bead all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant 1e-3
+fix small all particletemplate/sphere 32452867 atom_type 1 density constant 2500 radius constant 0.8e-3
+fix beads all particledistribution/discrete 15485867 2 bead 0.5 small 0.5
+fix inject all insert/rate/region seed 32452843 distributiontemplate beads nparticles 60 particlerate 2000 &
+    insert_every 200 overlapcheck yes vel uniform 0. 0. -0.1 0.02 0.02 0.02 region source ntry_mc 10000
+""")
+        whole, parts = self.run_to("whole", 0.03), self.run_to("parts", 0.015)
+        self.run_to("parts", 0.03, "--continue")
+        inserted = [json.loads((run / "results.json").read_text())["particles"]["inserted"] for run in (whole, parts)]
+        self.assertGreater(inserted[1], 20)
+        self.assertGreater(inserted[0], inserted[1] + 20)
+        self.compare(whole, parts)
 
     def test_concurrent(self):
         self.case()
@@ -162,7 +200,6 @@ class Continued(unittest.TestCase):
         part = self.run_to("parts", 0.01)
         self.check_refused(part, "coupling.window was 0.001 s", "--set", "coupling.window=5e-4")
         self.check_refused(part, "bulk_grid.cells was [8, 4, 8]", "--set", "bulk_grid.cells=[4,4,8]")
-        self.check_refused(part, "fluid.ranks was 1", "--fluid-ranks", "2")
         self.check_refused(part, "is at 0.01 s already", "--set", "coupling.end_time=0.01")
         self.check_refused(part, "is of another fluid case", "--set", "fluid.prepare=[blockMesh]")
         self.check_refused(part, "give one", "--force")
