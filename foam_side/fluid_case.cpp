@@ -25,10 +25,11 @@ void require_prepared(const fs::path& folder, int ranks) {
   int decomposed = 0;
   while (fs::exists(folder / fmt::format("processor{}", decomposed))) ++decomposed;
   if (ranks > 1 && decomposed != ranks)
-    throw InputError(
-        fmt::format("the fluid case in {} is decomposed for {} ranks, but foam_side runs on {}: run "
-                    "`demvof prepare` with --set fluid.ranks={} first",
-                    folder.string(), decomposed, ranks, ranks));
+    throw InputError(fmt::format(
+        "the fluid case in {} is {}, but foam_side runs on {} ranks: run `demvof prepare` with --set "
+        "fluid.ranks={} first",
+        folder.string(), decomposed == 0 ? "not decomposed" : fmt::format("decomposed for {}", decomposed),
+        ranks, ranks));
   const fs::path mesh = (ranks > 1 ? folder / "processor0" : folder) / "constant" / "polyMesh" / "faces";
   if (!fs::exists(mesh) && !fs::exists(mesh.string() + ".gz"))
     throw InputError(

@@ -74,6 +74,24 @@ bool mesh_moves(const Foam::Time& time) {
   return type != "staticFvMesh" && type != "dynamicRefineFvMesh";
 }
 
+/// A property of the fluids that can be; else the file, the line and what is allowed.
+scalar property(const Foam::dictionary& dictionary, const char* key, const Foam::dimensionSet& dimensions,
+                double lowest, double highest, const char* unit) {
+  const scalar value = dimensionedScalar(key, dimensions, dictionary).value();
+  if (value >= lowest && value <= highest) return value;
+  const Foam::fileName file = Foam::fileName(dictionary.name());
+  throw InputError(fmt::format("{}:{}: {}: {:g} is not allowed; give a number from {:g} to {:g} ({})", file,
+                               dictionary.lookupEntry(key, Foam::keyType::LITERAL).startLineNumber(), key,
+                               value, lowest, highest, unit));
+}
+
+void require_fluid(const Foam::dictionary& transport, const word& phase) {
+  const Foam::dictionary& fluid = transport.subDict(phase);
+  property(fluid, "rho", Foam::dimDensity, 1e-6, 1e6, "kg/m3");
+  if (fluid.lookupOrDefault<word>("transportModel", "") == "Newtonian")
+    property(fluid, "nu", Foam::dimViscosity, 0, 1e3, "m2/s");
+}
+
 }  // namespace
 
 SceneFacts fluid_facts(const Foam::argList& args) {
@@ -81,7 +99,8 @@ SceneFacts fluid_facts(const Foam::argList& args) {
   const Foam::dictionary transport = read_dictionary(time, time.constant(), "transportProperties");
   const Foam::wordList phases(transport.lookup("phases"));
   SceneFacts facts;
-  facts.surface_tension = dimensionedScalar("sigma", Foam::dimForce / Foam::dimLength, transport).value();
+  facts.surface_tension = property(transport, "sigma", Foam::dimForce / Foam::dimLength, 0, 1e3, "N/m");
+  for (const word& phase : phases) require_fluid(transport, phase);
   const std::optional<scalar> fraction = fraction_everywhere(time, phases[0]);
   facts.two_fluids = !fraction;
   const auto density = [&transport](const word& phase) {

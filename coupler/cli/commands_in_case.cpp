@@ -117,12 +117,13 @@ void look_through_script(const fs::path& file, Lines& found, std::vector<fs::pat
   const fs::path path = file.lexically_normal();
   if (std::count(seen.begin(), seen.end(), path)) return;
   seen.push_back(path);
+  static const std::regex condition(R"(^\s*if\s+"[^"]*")");  // numbers and words are compared in it
   static const std::regex other_file(R"(^\s*(include|jump)\s+(\S+))");
   std::ifstream stream(path);
   std::string line;
   bool continued = false;  // by & at the end of the line before
   for (long number = 1; std::getline(stream, line); ++number) {
-    line = line.substr(0, line.find('#'));
+    line = std::regex_replace(line.substr(0, line.find('#')), condition, "if");
     for (const Rule& rule : script_rules())
       if (!(continued && rule.what == script_rules()[2].what) && std::regex_search(line, rule.found))
         add(found, path, number, rule.what, line);
