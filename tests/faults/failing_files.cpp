@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // In front of the C library (LD_PRELOAD), makes file operations fail:
-//   DEMVOF_FAULT="write TEXT COUNT ERROR"   the COUNT-th and all later ones on files whose path holds TEXT;
-//   ERROR DEMVOF_FAULT="open TEXT COUNT ERROR"    is a number of errno.h. COUNT counts in each process by
-//   itself.
+//   DEMVOF_FAULT="OPERATION TEXT COUNT ERROR"
+// OPERATION: open (for writing), write, fsync or rename (to a name); the COUNT-th and all later ones on files
+// whose path holds TEXT. ERROR: a number of errno.h; 0: the process is killed at the first of them. COUNT
+// counts in each process by itself.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -28,7 +30,8 @@ const Fault& fault() {
   static const Fault given = [] {
     Fault read;
     const char* words = std::getenv("DEMVOF_FAULT");
-    if (words)
+    // Whoever started the programs sees to the end of their run.
+    if (words && std::strcmp(program_invocation_short_name, "demvof") != 0)
       std::sscanf(words, "%15s %255s %d %d", read.operation.data(), read.text.data(), &read.first,
                   &read.error);
     return read;
@@ -41,11 +44,12 @@ bool fails(const char* operation, const char* path) {
   if (std::strcmp(fault().operation.data(), operation) != 0 || !std::strstr(path, fault().text.data()))
     return false;
   if (++count < fault().first) return false;
+  if (fault().error == 0) kill(getpid(), SIGKILL);
   errno = fault().error;
   return true;
 }
 
-bool write_fails(int file) {
+bool fails(const char* operation, int file) {
   if (fault().first == 0) return false;
   std::array<char, 64> link{};
   std::array<char, 4096> path{};
@@ -53,7 +57,7 @@ bool write_fails(int file) {
   const int before = errno;
   const ssize_t length = readlink(link.data(), path.data(), path.size() - 1);
   errno = before;
-  return length > 0 && fails("write", path.data());
+  return length > 0 && fails(operation, path.data());
 }
 
 template <class Function>
@@ -71,12 +75,12 @@ extern "C" {
 
 ssize_t write(int file, const void* bytes, size_t count) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  return write_fails(file) ? -1 : real(file, bytes, count);
+  return fails("write", file) ? -1 : real(file, bytes, count);
 }
 
 ssize_t writev(int file, const iovec* parts, int count) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
-  return write_fails(file) ? -1 : real(file, parts, count);
+  return fails("write", file) ? -1 : real(file, parts, count);
 }
 
 int open(const char* path, int flags, ...) {
@@ -86,6 +90,16 @@ int open(const char* path, int flags, ...) {
   const int mode = (flags & O_CREAT) != 0 ? va_arg(more, int) : 0;
   va_end(more);
   return makes_file(flags) && fails("open", path) ? -1 : real(path, flags, mode);
+}
+
+int fsync(int file) {
+  static const auto real = next<int (*)(int)>("fsync");
+  return fails("fsync", file) ? -1 : real(file);
+}
+
+int rename(const char* from, const char* to) {
+  static const auto real = next<int (*)(const char*, const char*)>("rename");
+  return fails("rename", to) ? -1 : real(from, to);
 }
 
 FILE* fopen(const char* path, const char* mode) {

@@ -4,70 +4,22 @@
 A state that the run can be continued from is whole or is not there; a run whose files are cut is never `completed`;
 whoever fails is named. --long: every file of a run, 200 kills, more flipped bits.
 """
+import contextlib
 import errno
 import json
 import os
 import pathlib
-import random
 import shutil
 import signal
 import subprocess
-import sys
 import time
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification" / "pair"))
-from box_case import BoxCase, Open, Particle, Wall, SIDES  # noqa: E402
-from pair import Pair  # noqa: E402
-
-LONG = "--long" in sys.argv
-DEMVOF, LIBRARY, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-RANDOM = random.Random(14)
+from injected import DEMVOF, LONG, RANDOM, Injected, beads_into_water, demvof, main, status
+from pair import Pair
 
 
-def beads_into_water(folder, fine=(8, 4, 8), **keys):
-    beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
-                      velocity=(0, 0, -0.3)) for i in range(12)]
-    keys = {"end_time": 0.01, "output_interval": 2e-3, **keys}
-    end_time = keys.pop("end_time")
-    return BoxCase(folder, (0.04, 0.02, 0.04), fine, (8, 4, 8), end_time, window=1e-3, level=0.0174,
-                   gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
-                   sides={side: Open() if side == "z+" else Wall() for side in SIDES}, **keys).write()
-
-
-def demvof(case_file, out, *options, fault=None, timeout=120):
-    """Exit code and what was printed."""
-    environment = dict(os.environ)
-    if fault:
-        environment.update(LD_PRELOAD=LIBRARY, DEMVOF_FAULT=fault)
-    force = [] if "--continue" in options else ["--force"]
-    done = subprocess.run([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], env=environment, text=True,
-                          errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout, check=False)
-    return done.returncode, done.stdout
-
-
-def status(out):
-    return json.loads((out / "results.json").read_text())
-
-
-class Faults(unittest.TestCase):
-    def setUp(self):
-        self.folder = FOLDER / self._testMethodName
-        self.case_file = beads_into_water(self.folder)
-        self.out = self.folder / "run"
-
-    def whole(self):
-        """history.csv of the run that nothing befell."""
-        out = self.folder / "whole"
-        code, text = demvof(self.case_file, out)
-        self.assertEqual(code, 0, text)
-        return (out / "history.csv").read_text()
-
-    def continues(self, whole):
-        code, text = demvof(self.case_file, self.out, "--continue")
-        self.assertEqual(code, 0, text)
-        self.assertEqual((self.out / "history.csv").read_text(), whole)
-
+class Faults(Injected):
     # ---- full disks
 
     def check_full_disk(self, operation, name, count, whole):
@@ -141,26 +93,42 @@ class Faults(unittest.TestCase):
     # ---- kills
 
     def check_kills(self, count, ranks):
-        whole = self.whole()
+        """Kills at random moments of the run, until so many have been continued."""
         options = ("--fluid-ranks", str(ranks), "--particle-ranks", str(ranks), "--set", "output.interval=0.001")
-        for number in range(count):
+        whole = self.whole(*options)
+        continued = too_early = through = 0
+        while continued < count:
             shutil.rmtree(self.out, ignore_errors=True)
             pair = Pair(DEMVOF, self.case_file, self.out, *options)
-            time.sleep(RANDOM.uniform(0.3, 4))
+            reached = self.out / "restart" / str(RANDOM.randrange(11))
+            while reached.name != "0" and not reached.exists() and pair.process.poll() is None:
+                time.sleep(0.005)
+            time.sleep(RANDOM.uniform(0, 0.5 if reached.name == "0" else 0.1))
             victims = pair.pids("foam_side") + pair.pids("dem_side")
-            if victims and pair.process.poll() is None:
-                os.kill(RANDOM.choice(victims), signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):
+                if victims:
+                    os.kill(RANDOM.choice(victims), signal.SIGKILL)
             code, text = pair.wait(60)
+            what = f"kill {continued + too_early + through}\n{text}"
             if code == 0:
-                continue  # it was through
-            self.assertEqual(code, 4, f"kill {number}\n{text}")
-            self.assertEqual(status(self.out)["status"], "failed")
+                through += 1
+                continue
+            self.assertEqual(code, 4, what)
+            if status(self.out)["status"] == "completed":  # killed when all was written
+                through += 1
+                continue
+            self.assertEqual(status(self.out)["status"], "failed", what)
             if not (self.out / "restart/latest.json").exists():
-                continue  # killed before the first state
+                too_early += 1
+                continue
             code, text = demvof(self.case_file, self.out, "--continue", *options)
-            self.assertEqual(code, 0, f"kill {number}\n{text}")
+            self.assertEqual(code, 0, what + text)
             if ranks == 1:
-                self.assertEqual((self.out / "history.csv").read_text(), whole)
+                self.assertEqual((self.out / "history.csv").read_text(), whole, what)
+            continued += 1
+            if continued % 10 == 0:
+                print(f"{continued} killed and continued, {too_early} killed before the first state, {through} were through",
+                      flush=True)
 
     def test_kills(self):
         self.check_kills(100 if LONG else 2, 1)
@@ -168,6 +136,29 @@ class Faults(unittest.TestCase):
     @unittest.skipUnless(LONG, "minutes: with --long")
     def test_kills_of_several_ranks(self):
         self.check_kills(100, 2)
+
+    @unittest.skipUnless(LONG, "minutes: with --long")
+    def test_killed_while_a_state_is_divided(self):
+        """For another number of fluid ranks."""
+        code, text = demvof(self.case_file, self.out, "--set", "coupling.end_time=0.004")
+        self.assertEqual(code, 0, text)
+        for number in range(20):
+            ranks = str(2 - number % 2)
+            command = [DEMVOF, "run", str(self.case_file), "--out", str(self.out), "--continue", "--fluid-ranks", ranks]
+            run = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+            time.sleep(RANDOM.uniform(0.02, 1.2))
+            os.killpg(run.pid, signal.SIGKILL)
+            run.wait()
+            end = time.monotonic() + 20
+            while self.left_over() and time.monotonic() < end:
+                time.sleep(0.1)
+            state = json.loads((self.out / "restart/latest.json").read_text())
+            code, text = demvof(self.case_file, self.out, "--continue", "--set",
+                                f"coupling.end_time={state['time'] + 0.001:.3f}", "--fluid-ranks", "1")
+            self.assertEqual(code, 0, f"kill {number}\n{text}")
+
+    def left_over(self):
+        return [p for p in ("foam_side", "dem_side", "mpirun") if Pair.pids(self, p)]
 
     def test_killed_at_the_start(self):
         pair = Pair(DEMVOF, self.case_file, self.out, "--quiet")
@@ -253,4 +244,4 @@ class Faults(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + [word for word in sys.argv[4:] if word != "--long"], verbosity=2)
+    main()

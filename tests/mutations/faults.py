@@ -29,6 +29,13 @@ ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit
 SHAKEN, ROWS = {"^pair.shaken$": PAIR}, {"^unit_gravity_table$": ["unit_gravity_table"]}
 BED = {"^mock_foam_bed$": ["foam_side", "mock_particles", "demvof"]}
 VIEW, BROWSER = {"^unit_report_view$": ["demvof"]}, {"^browser_view$": ["demvof"]}
+STATES = {"^unit_restart_point$": ["unit_restart_point"]}
+VERDICT = {"^unit_verdict$": ["unit_verdict"]}
+HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$": ["fuzz_handshake"]}
+CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
+LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
+CONTINUED = {"^pair.continued$": PAIR}
+ROWS = {"^faults_rows$": [*PAIR, "failing_files"]}
 
 FAULTS = [
     # ---- closures
@@ -217,4 +224,27 @@ FAULTS = [
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share <= 0", MOVING),
     ("dem_side/run.cpp", "if (fluid.openings) averaging.set_openings(*fluid.openings);", "", MOVING),
+    # ---- nothing lost, nothing hidden
+    ("coupler/output/state_files.cpp", "if (read_facts(file, then.bytes).checksum != then.checksum)",
+     "if (false)", STATES),
+    ("coupler/output/restart_point.cpp", "++newest > kept)", "++newest > kept + 1)", STATES),
+    ("coupler/output/restart_point.cpp", "if (window == damaged) continue;", "if (window != damaged) continue;", STATES),
+    ("coupler/output/verdict.cpp", "if (!(value <= limit) && !verdict.failure)", "if (value > limit && !verdict.failure)",
+     VERDICT),
+    ("coupler/output/verdict.cpp", "share <= warned_of * limits.lost_particles)", "share < 0)", VERDICT),
+    ("coupler/link/handshake.cpp", "if (!std::isfinite(difference)) return false;", "", HANDSHAKE),
+    ("coupler/link/handshake.cpp", "NoTraps() { std::feholdexcept(&before_); }", "NoTraps() { std::fegetenv(&before_); }",
+     HANDSHAKE),
+    ("coupler/link/text_message.hpp", "words[0] > 8 * (words.size() - 1)", "words[0] > 8 * words.size()", HANDSHAKE),
+    ("coupler/config/given_values.cpp", "name.find('.') != std::string::npos && is_known(path)", "false", CASE_FILE),
+    ("coupler/config/given_values.cpp", "printable(error.msg)", "error.msg", CASE_FILE),
+    ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
+    ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
+    ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
+    ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
+    ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "entry", CONTINUED),
+    ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1", CONTINUED),
+    ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", ROWS),
+    ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
+     """{"--continue (checksum of the state)", ""}""", ROWS),
 ]

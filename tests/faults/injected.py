@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of a pair for the tests of this folder, and what befalls them: PROGRAM DEMVOF LIBRARY FOLDER [--long] [unittest arguments]"""
+import json
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification" / "pair"))
+from box_case import BoxCase, Open, Particle, Wall, SIDES  # noqa: E402
+
+LONG = "--long" in sys.argv
+DEMVOF, LIBRARY = map(os.path.abspath, sys.argv[1:3])
+FOLDER = pathlib.Path(sys.argv[3])
+RANDOM = random.Random(14)
+
+
+def main():
+    unittest.main(argv=sys.argv[:1] + [word for word in sys.argv[4:] if word != "--long"], verbosity=2)
+
+
+def beads_into_water(folder, fine=(8, 4, 8), **keys):
+    beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
+                      velocity=(0, 0, -0.3)) for i in range(12)]
+    keys = {"end_time": 0.01, "output_interval": 2e-3, **keys}
+    end_time = keys.pop("end_time")
+    return BoxCase(folder, (0.04, 0.02, 0.04), fine, (8, 4, 8), end_time, window=1e-3, level=0.0174,
+                   gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
+                   sides={side: Open() if side == "z+" else Wall() for side in SIDES}, **keys).write()
+
+
+def demvof(case_file, out, *options, fault=None, timeout=120):
+    """Exit code and what was printed."""
+    environment = dict(os.environ)
+    if fault:
+        environment.update(LD_PRELOAD=LIBRARY, DEMVOF_FAULT=fault)
+    force = [] if "--continue" in options else ["--force"]
+    done = subprocess.run([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], env=environment, text=True,
+                          errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout, check=False)
+    return done.returncode, done.stdout
+
+
+def status(out):
+    return json.loads((out / "results.json").read_text())
+
+
+class Injected(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / self._testMethodName
+        self.case_file = beads_into_water(self.folder)
+        self.out = self.folder / "run"
+
+    def whole(self, *options):
+        """history.csv of the run that nothing befell."""
+        out = self.folder / "whole"
+        code, text = demvof(self.case_file, out, *options)
+        self.assertEqual(code, 0, text)
+        return (out / "history.csv").read_text()
+
+    def continues(self, whole):
+        code, text = demvof(self.case_file, self.out, "--continue")
+        self.assertEqual(code, 0, text)
+        self.assertEqual((self.out / "history.csv").read_text(), whole)
