@@ -141,15 +141,17 @@ void correct_pressure(Flow& flow) {
   else
     Foam::constrainPressure(flow.p_rgh, flow.U, phiHbyA, mobility, extras(flow).rotating);
 
+  // The last of those of the case, or one that follows it.
+  const bool further = system.further_corrections > 0;
   bool last = false;
   while (flow.pimple.correctNonOrthogonal()) {
-    last = flow.pimple.finalInnerIter();
+    last = flow.pimple.finalInnerIter() || (further && flow.pimple.finalNonOrthogonalIter());
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, flow.p_rgh) == fvc::div(phiHbyA));
     if (flow.porosity) equation.source() += flow.mesh.V().field() * rate_to_serve(flow);
     if (flow.porosity && flow.porosity->swept)
       equation.source() -= flow.mesh.V().field() * fvc::div(*flow.porosity->swept)().primitiveField();
     equation.setReference(flow.p_reference_cell, Foam::getRefCellValue(flow.p_rgh, flow.p_reference_cell));
-    equation.solve(flow.mesh.solver(flow.p_rgh.select(flow.pimple.finalInnerIter())));
+    equation.solve(flow.mesh.solver(flow.p_rgh.select(last)));
     if (!flow.pimple.finalNonOrthogonalIter()) continue;
 
     const tmp<surfaceScalarField> pressure_flux = equation.flux();
@@ -164,7 +166,7 @@ void correct_pressure(Flow& flow) {
   }
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
-  if (flow.source && last) note_open_momentum(flow, h);
+  if (flow.source && last && flow.pimple.finalIter()) note_open_momentum(flow, h);
 }
 
 }  // namespace demvof

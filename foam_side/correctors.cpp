@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loops of PIMPLE inside a time step: outer correctors, and in each the pressure corrections.
+// The loops of PIMPLE inside a time step: outer correctors, and in each the pressure corrections; further
+// ones where these leave too much of the momentum open.
 
 #include "foam_side/flow.hpp"
+#include "foam_side/open_momentum.hpp"
 
 namespace demvof {
 
@@ -10,7 +12,14 @@ bool outer_corrector(Flow& flow) {
 }
 
 bool pressure_corrector(Flow& flow) {
+  constexpr int most_further_corrections = 20;
   if (flow.pimple.correct()) return true;
+  PressureSystem& system = flow.pressure_system;
+  if (flow.source && system.viscous && flow.pimple.finalIter() &&
+      system.further_corrections < most_further_corrections && leaves_too_much_open(flow)) {
+    ++system.further_corrections;
+    return true;
+  }
   if (flow.pimple.turbCorr()) flow.turbulence->correct();
   return false;
 }

@@ -79,6 +79,9 @@ struct PressureSystem {
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
   std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
+  bool viscous = false;         // nu dt/dx2 > 1: few pressure corrections leave much open
+  double returned = 0;          // of what the step before left open (open_momentum.hpp), N s
+  int further_corrections = 0;  // beyond those of the case
 };
 
 /// The fluid. Built by open_flow; members stand in the order in which they depend on each other.

@@ -153,8 +153,10 @@ double viscous_number(const Flow& flow) {
 }
 
 bool predicts(Flow& flow) {
-  if (flow.pimple.momentumPredictor()) return true;
+  if (flow.pimple.momentumPredictor() && !flow.source) return true;
   const double number = viscous_number(flow);
+  flow.pressure_system.viscous = number > 1;
+  if (flow.pimple.momentumPredictor()) return true;
   static bool said = false;
   if (number > 1 && !said) {
     Foam::Info << "Momentum predictor switched on where nu dt/dx2 > 1 (here " << number
@@ -171,8 +173,11 @@ void predict_momentum(Flow& flow) {
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
-  if (flow.source)
+  if (flow.source) {
     system.momentum->source() += flow.mesh.V().field() * open_momentum(flow) / flow.time.deltaTValue();
+    system.returned = size_of_open_momentum(flow);
+  }
+  system.further_corrections = 0;
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   constrain(flow, *system.momentum);
   if (predicts(flow)) solve_momentum(flow, *system.momentum);

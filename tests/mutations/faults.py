@@ -215,6 +215,8 @@ FAULTS = [
      "dem.set_gravity(parameters.gravity->at(link.begin_time()));", SHAKEN),
     ("dem_side/forces.cpp", "constant + (weight - weight_of_script);", "constant;", SHAKEN),
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
+    # ---- what the pressure corrections leave open
+    ("foam_side/open_momentum.cpp", "constexpr double of_returned = 0.5,", "constexpr double of_returned = 1e9,", STREWN),
     # ---- meshes that move
     ("foam_side/move_porosity.cpp", "face_void_fraction(porosity.eps) * flow.mesh.phi()", "flow.mesh.phi()", MOVING),
     ("foam_side/move_porosity.cpp", "flow.mesh.moving() ? flow.mesh.V0().field()", "!flow.mesh.moving() ? flow.mesh.V0().field()",
