@@ -20,6 +20,11 @@
 namespace demvof {
 namespace {
 
+/// Volume at the begin of the step over that at its end, exactly 1 on a mesh at rest.
+tmp<scalarField> volume_ratio(const Flow& flow) {
+  return volumes_before(flow) / flow.mesh.V().field();
+}
+
 /// Void fraction at the two ends of an alpha step, in the form of the "rho" that MULES asks for. The volume
 /// of fluid in a cell changes linearly through a step, and so does the cell's.
 class StepPorosity {
@@ -28,16 +33,17 @@ class StepPorosity {
     const scalarField& values;
     const scalarField& field() const { return values; }
   };
-  /// The part from fraction a to fraction b of the flow's present step.
-  StepPorosity(const Flow& flow, const volScalarField& eps, double a, double b)
-      : start_(at(flow, eps, a)), end_(at(flow, eps, b)) {}
+  /// The part from fraction a to fraction b of the flow's present step, which goes from start to end.
+  StepPorosity(const Flow& flow, const scalarField& start, const scalarField& end, double a, double b)
+      : start_(at(flow, start, end, a)), end_(at(flow, start, end, b)) {}
   const scalarField& field() const { return end_; }
   Start oldTime() const { return {start_}; }
 
  private:
-  static scalarField at(const Flow& flow, const volScalarField& eps, double part) {
-    const scalarField from((1 - part) * volumes_before(flow)), to(part * flow.mesh.V().field());
-    return (from * eps.oldTime().primitiveField() + to * eps.primitiveField()) / (from + to);
+  static scalarField at(const Flow& flow, const scalarField& start, const scalarField& end, double part) {
+    if (part == 0 || part == 1) return part == 0 ? start : end;  // without round-off
+    const scalarField from((1 - part) * volume_ratio(flow));
+    return (from * start + part * end) / (from + part);
   }
   scalarField start_, end_;
 };
@@ -187,7 +193,7 @@ tmp<surfaceScalarField> advance_alpha_in_parts(Flow& flow, const Carrier& carrie
 void carry_void_fraction(Flow& flow) {
   volScalarField& eps = flow.porosity->eps;
   const tmp<volScalarField> divergence = fvc::div(flow.phi);
-  eps.primitiveFieldRef() = eps.oldTime().primitiveField() * volumes_before(flow) / flow.mesh.V().field() -
+  eps.primitiveFieldRef() = eps.oldTime().primitiveField() * volume_ratio(flow) -
                             flow.time.deltaTValue() * divergence().primitiveField();
   eps.correctBoundaryConditions();
 }
@@ -211,7 +217,8 @@ tmp<surfaceScalarField> advance_between_particles(Flow& flow, const surfaceScala
     follow_alpha(flow);
   }
   return advance_alpha_in_parts(flow, {phi, phi},
-                                [&](double a, double b) { return StepPorosity(flow, eps, a, b); });
+                                [&flow, &start = eps.oldTime().primitiveField(), &end = eps.primitiveField()](
+                                    double a, double b) { return StepPorosity(flow, start, end, a, b); });
 }
 
 /// Share of the step's end in the flux that carries alpha: 1 for Euler, 1/2 for Crank-Nicolson without

@@ -133,7 +133,8 @@ def tank_with_surface(name, velocity, **keys):
     """Nine beads of three densities fall into and rise in water under air."""
     moves = any(velocity)
     case = tank(name, velocity, f"solidBodyMotionFunction linearMotion; linearMotionCoeffs {{ velocity {vector(velocity)}; }}" if moves else "",
-                "linear {} {} {}".format(*velocity) if moves else "", 1e-3, keys.pop("end_time", 0.1), level=0.033, **keys)
+                "linear {} {} {}".format(*velocity) if moves else "", 1e-3, keys.pop("end_time", 0.1), level=0.033,
+                alpha_controls="nAlphaCorr 1; nAlphaSubCycles 2; cAlpha 1; MULESCorr no;", **keys)
     case.sides["z+"] = Open()
     case.particles = [Particle((0.008 + 0.012 * i, 0.008 + 0.012 * j, 0.02 + 0.008 * ((i + j) % 3)), 6e-3, (300, 900, 2500)[(i * 2 + j) % 3],
                                velocity=velocity) for i in range(3) for j in range(3)]
