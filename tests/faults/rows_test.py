@@ -222,7 +222,7 @@ class Rows(Injected):
     @slow
     def test_a_side_stopped_for_longer_than_the_time_out(self):
         self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1, coupling={"time_out": 3})
-        for program in ("foam_side", "dem_side"):
+        for program, side in (("foam_side", "fluid"), ("dem_side", "particles")):
             shutil.rmtree(self.out, ignore_errors=True)
             pair = Pair(DEMVOF, self.case_file, self.out)
             pair.wait_for_window(2)
@@ -231,6 +231,7 @@ class Rows(Injected):
             self.assertEqual(code, 4, text)
             self.assertEqual(status(self.out)["status"], "failed")
             self.assertIn("waited 3 s", status(self.out)["failure"]["message"])
+            self.assertEqual(status(self.out)["failure"]["side"], side)
             self.assertEqual(pair.pids("foam_side") + pair.pids("dem_side"), [])
 
     # ---- files that go while the run goes on
