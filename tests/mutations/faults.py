@@ -224,7 +224,8 @@ FAULTS = [
     ("foam_side/correct_pressure.cpp", "if (flow.porosity->swept) return prescribed_growth(flow);", "", MOVING),
     ("foam_side/step_fluid.cpp", "  bridge.collect_impulse();\n  move_under_particles(flow);", "  move_under_particles(flow);", MOVING),
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
-    ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share <= 0", MOVING),
+    ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share + 0.5 * windows_ahead * change <= 0",
+     MOVING),
     ("dem_side/run.cpp", "if (fluid.openings) averaging.set_openings(*fluid.openings);", "", MOVING),
     # ---- nothing lost, nothing hidden
     ("coupler/output/state_files.cpp", "if (read_facts(file, then.bytes).checksum != then.checksum)",
