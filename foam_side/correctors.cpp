@@ -15,10 +15,14 @@ bool pressure_corrector(Flow& flow) {
   constexpr int most_further_corrections = 20;
   if (flow.pimple.correct()) return true;
   PressureSystem& system = flow.pressure_system;
-  if (flow.source && system.viscous && flow.pimple.finalIter() &&
-      system.further_corrections < most_further_corrections && leaves_too_much_open(flow)) {
-    ++system.further_corrections;
-    return true;
+  if (flow.source && system.viscous && flow.pimple.finalIter() && leaves_too_much_open(flow)) {
+    if (system.further_corrections < most_further_corrections) {
+      ++system.further_corrections;
+      return true;
+    }
+    Foam::Info << "After " << most_further_corrections
+               << " further pressure corrections more momentum is open than half of what was returned"
+               << Foam::endl;
   }
   if (flow.pimple.turbCorr()) flow.turbulence->correct();
   return false;
