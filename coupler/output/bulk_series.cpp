@@ -74,12 +74,7 @@ void write_bulk(const fs::path& path, const BulkGrid& grid, const CellValues<Bul
 
 BulkSeries::BulkSeries(MPI_Comm world, BulkGrid grid, const fs::path& folder,
                        std::optional<double> continued_from, const std::string& name)
-    : world_(world),
-      grid_(std::move(grid)),
-      folder_(folder / name),
-      name_(name),
-      index_(folder_ / (name + ".pvd"), continued_from),
-      count_(vtk_file::prepare_folder(world_, folder_, name_, index_.size())) {}
+    : VtkSeries(world, folder, name, continued_from), grid_(std::move(grid)) {}
 
 void BulkSeries::write(double time, const CellValues<BulkFrame>& active) {
   const std::string file = fmt::format("{}_{:06}.vti", name_, count_++);

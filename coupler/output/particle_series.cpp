@@ -79,11 +79,7 @@ void write_pieces_index(const fs::path& path, const std::vector<std::string>& pi
 
 ParticleSeries::ParticleSeries(MPI_Comm world, const fs::path& folder, std::optional<double> continued_from,
                                const std::string& name)
-    : world_(world),
-      folder_(folder / name),
-      name_(name),
-      index_(folder_ / (name + ".pvd"), continued_from),
-      count_(vtk_file::prepare_folder(world_, folder_, name_, index_.size())) {}
+    : VtkSeries(world, folder, name, continued_from) {}
 
 void ParticleSeries::write(double time, const ParticleFrame& frame) {
   const int my_rank = vtk_file::rank_of(world_), ranks = vtk_file::size_of(world_);

@@ -54,11 +54,7 @@ bool same(const std::vector<Vec3>& some, const std::vector<Vec3>& others) {
 
 SurfaceSeries::SurfaceSeries(MPI_Comm world, const fs::path& folder, std::optional<double> continued_from,
                              const std::string& name)
-    : world_(world),
-      folder_(folder / name),
-      name_(name),
-      index_(folder_ / (name + ".pvd"), continued_from),
-      count_(vtk_file::prepare_folder(world_, folder_, name_, index_.size())) {}
+    : VtkSeries(world, folder, name, continued_from) {}
 
 void SurfaceSeries::write(double time, const std::vector<Vec3>& corners) {
   const std::string file = fmt::format("{}_{:06}.vtp", name_, count_++);

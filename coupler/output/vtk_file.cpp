@@ -50,6 +50,14 @@ vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>&
 
 }  // namespace vtk_file
 
+VtkSeries::VtkSeries(MPI_Comm world, const fs::path& folder, const std::string& name,
+                     std::optional<double> continued_from)
+    : world_(world),
+      name_(name),
+      folder_(folder / name),
+      index_(folder_ / (name + ".pvd"), continued_from),
+      count_(vtk_file::prepare_folder(world_, folder_, name_, index_.size())) {}
+
 PvdIndex::PvdIndex(fs::path path, std::optional<double> continued_from) : path_(std::move(path)) {
   if (!continued_from) return;
   const double last = *continued_from * (1 + 1e-9);

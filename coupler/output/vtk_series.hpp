@@ -37,6 +37,20 @@ class PvdIndex {
   std::vector<std::pair<double, std::string>> entries_;
 };
 
+/// What all series have: folder, list of frames, number of the next one.
+class VtkSeries {
+ protected:
+  /// Collective over world. The series' folder, named like it, lies in the given one.
+  VtkSeries(MPI_Comm world, const std::filesystem::path& folder, const std::string& name,
+            std::optional<double> continued_from);
+
+  MPI_Comm world_;
+  std::string name_;
+  std::filesystem::path folder_;
+  PvdIndex index_;
+  int count_;
+};
+
 /// The particles of one rank; every member has one value per particle.
 struct ParticleFrame {
   std::vector<std::int64_t> id;
@@ -50,7 +64,7 @@ struct ParticleFrame {
 };
 
 /// particles/: one .vtp piece per rank, with a .pvtp over the pieces when there are several.
-class ParticleSeries {
+class ParticleSeries : VtkSeries {
  public:
   /// Collective over world.
   ParticleSeries(MPI_Comm world, const std::filesystem::path& folder,
@@ -58,18 +72,11 @@ class ParticleSeries {
   /// Collective. Throws std::runtime_error on all ranks when members differ in length or a file
   /// cannot be written on any.
   void write(double time, const ParticleFrame& frame);
-
- private:
-  MPI_Comm world_;
-  std::filesystem::path folder_;
-  std::string name_;
-  PvdIndex index_;
-  int count_ = 0;
 };
 
 /// surfaces/: the triangles of walls, whole in one file; a frame in which none has moved shares that of the
 /// one before.
-class SurfaceSeries {
+class SurfaceSeries : VtkSeries {
  public:
   /// Collective over world.
   SurfaceSeries(MPI_Comm world, const std::filesystem::path& folder,
@@ -79,11 +86,6 @@ class SurfaceSeries {
   void write(double time, const std::vector<Vec3>& corners);
 
  private:
-  MPI_Comm world_;
-  std::filesystem::path folder_;
-  std::string name_;
-  PvdIndex index_;
-  int count_ = 0;
   std::vector<Vec3> written_;  // on rank 0: what the last file has, and its name
   std::string file_;
 };
@@ -98,7 +100,7 @@ struct BulkFrame {
 
 /// bulk/: the bulk grid as .vti with cell data; cells that the run does not average are marked by
 /// active = 0 and carry the defaults of BulkFrame.
-class BulkSeries {
+class BulkSeries : VtkSeries {
  public:
   /// Collective over world.
   BulkSeries(MPI_Comm world, BulkGrid grid, const std::filesystem::path& folder,
@@ -108,12 +110,7 @@ class BulkSeries {
   void write(double time, const CellValues<BulkFrame>& active);
 
  private:
-  MPI_Comm world_;
   BulkGrid grid_;
-  std::filesystem::path folder_;
-  std::string name_;
-  PvdIndex index_;
-  int count_ = 0;
 };
 
 }  // namespace demvof
