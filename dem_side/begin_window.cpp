@@ -68,6 +68,7 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   drag_count_ = lift_count_ = spin_lift_count_ = {};
   if (torque_) torque_->begin_window();
   if (history_) history_->begin_window();
+  if (lubrication_) lubrication_->begin_window();
 }
 
 void FluidForces::tell_sizes(int k, const std::vector<SizeMix>& sizes) {

@@ -345,11 +345,29 @@ void Dem::add_fix(std::vector<std::string> words) {
   guarded([&] { liggghts_->modify->add_fix(static_cast<int>(arguments.size()), arguments.data()); });
 }
 
-void Dem::add_particle_rows(const std::string& name, int width) {
-  // restart data, no communication to ghosts in either direction, zeros for new particles
+void Dem::add_rows(const std::string& name, int width, bool for_ghosts) {
+  // restart data, communication to ghosts and back; zeros for new particles
   std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "yes", "no", "no"};
+  if (for_ghosts) std::swap(words[5], words[6]);
   words.insert(words.end(), std::max(width, 2), "0.0");  // LIGGGHTS takes no vector of one
   add_fix(std::move(words));
+}
+
+void Dem::bring_to_ghosts(const std::string& name) {
+  auto* rows = dynamic_cast<LAMMPS_NS::FixPropertyAtom*>(liggghts_->modify->find_fix_id(name.c_str()));
+  rows->do_forward_comm();
+}
+
+void Dem::reach_further(double radii) {
+  demvof::reach_further(*liggghts_, radii);
+}
+
+NearPairs Dem::near_pairs() const {
+  return demvof::near_pairs(*liggghts_);
+}
+
+std::vector<NearWall> Dem::near_walls(double radii) const {
+  return demvof::near_walls(*liggghts_, radii);
 }
 
 double* const* Dem::particle_rows(const std::string& name) const {

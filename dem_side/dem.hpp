@@ -13,6 +13,7 @@
 
 #include "coupler/base/vec3.hpp"
 #include "dem_side/contact_times.hpp"
+#include "dem_side/near_surfaces.hpp"
 #include "dem_side/particle_arrays.hpp"
 #include "dem_side/random_streams.hpp"
 
@@ -121,8 +122,17 @@ class Dem {
   /// One value row per particle that goes with it from rank to rank, and from run to run; rows of new
   /// particles are 0.
   /// Returned pointers: local particle -> row, valid until the next DEM step.
-  void add_particle_rows(const std::string& name, int width);
+  void add_particle_rows(const std::string& name, int width) { add_rows(name, width, false); }
   double* const* particle_rows(const std::string& name) const;
+  /// Rows that are of one step alone, and that ghosts have as well: bring_to_ghosts() gives them those of
+  /// their particles. Collective.
+  void add_ghost_rows(const std::string& name, int width) { add_rows(name, width, true); }
+  void bring_to_ghosts(const std::string& name);
+
+  /// near_surfaces.hpp: what is near in a DEM step, from the next set_up() on at least as far as asked for.
+  void reach_further(double radii);
+  NearPairs near_pairs() const;
+  std::vector<NearWall> near_walls(double radii) const;
 
   /// Calls add_forces in every DEM step, after all other forces and torques are known; external: local
   /// particle
@@ -139,6 +149,7 @@ class Dem {
   template <class Work>
   void by_the_script(Work&& work);
   void add_fix(std::vector<std::string> words);
+  void add_rows(const std::string& name, int width, bool for_ghosts);
   static void call_back(void* self, long step, int count, int* id, double** position, double** external);
 
   MPI_Comm world_;

@@ -45,6 +45,7 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
     dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradientsRow>());
   if (parameters.torque) torque_.emplace(dem_);
   if (parameters.history) history_.emplace(dem_);
+  if (parameters.lubrication) lubrication_.emplace(dem_, *parameters.lubrication);
   switch (parameters.drag) {
     case DragLaw::none:
       attach(NoDrag{});
@@ -175,139 +176,162 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
       store(external[i], dem_.moves(particles.mask[i]) ? constant : Vec3{});
     return;
   }
-  const double step = half_step_ ? dem_.time_step() / 2 : dem_.time_step();
-  const Vec3 gravity = dem_.gravity(), of_script = dem_.script_gravity();
-  double* const* rows = dem_.particle_rows(rows_name);
-  double* const* all_gradients = with_gradients ? gradient_rows() : nullptr;
+  DemStep step{particles, half_step_ ? dem_.time_step() / 2 : dem_.time_step()};
+  step.gravity = dem_.gravity();
+  step.of_script = dem_.script_gravity();
+  step.rows = dem_.particle_rows(rows_name);
+  step.gradients = with_gradients ? gradient_rows() : nullptr;
   // Spins begin with the torques of set-up, and what a particle remembers is of whole steps.
-  FluidTorque* const torque = torque_ && !half_step_ ? &*torque_ : nullptr;
-  HistoryForce* const history = history_ && !half_step_ ? &*history_ : nullptr;
-  if (history) history->begin_step();
-  WindowImpulses sums;  // of this step alone: fewer numbers in one sum, less round-off
-  for (int i = 0; i < particles.count; ++i) {
-    CarriedRow& row = carried_by(rows, i);
-    const double mass = particles.mass[i], radius = particles.radius[i];
-    const Vec3 velocity = vec3(particles.velocity[i]);
-    const Dem::Stream stream = dem_.stream(i);
-    const bool released = stream.releases && !half_step_;  // set-up is after the release
-    const bool moves = dem_.moves(particles.mask[i]) && !stream.carries && !released;
-    if (released) sums.held -= mass / step * stream.change;
-    const bool heavy = dem_.has_weight(particles.mask[i]);
-    const Vec3 weight = heavy ? mass * gravity : Vec3{};
-    const Vec3 weight_of_script = heavy ? mass * of_script : Vec3{};  // LIGGGHTS has added it
-    const Vec3 own = constant + (weight - weight_of_script);          // what is to be added without any fluid
-    const Vec3 contact = vec3(particles.force[i]) - weight_of_script;
-    row.contacts.touching += touches(contact, weight_of_script);
-    ++row.contacts.evaluations;
-    if (!half_step_) row.path += step * velocity;  // that of the half step: what the position has moved with
-    if (moves && !half_step_) {                    // Dem::set_up() has given half a step of these
-      row.contacts.impulse += step * contact;
-      sums.contact += contact;
-      sums.gravity += weight;
-      sums.constant += constant;
-    } else if (moves) {
-      sums.gravity += weight - weight_of_script;
+  step.torque = torque_ && !half_step_ ? &*torque_ : nullptr;
+  step.history = history_ && !half_step_ ? &*history_ : nullptr;
+  if (step.history) step.history->begin_step();
+  if (lubrication_) {
+    std::vector<Found> all;
+    for (int i = 0; i < particles.count; ++i) all.push_back(find_forces<with_gradients>(drag_law, step, i));
+    bear_films(step, all);
+    for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
+  } else {
+    for (int i = 0; i < particles.count; ++i) {
+      const Found found = find_forces<with_gradients>(drag_law, step, i);
+      store(external[i], force_on<with_gradients>(step, i, found));
     }
-    store(external[i], moves ? own : Vec3{});
-    if (row.waits()) {
-      if (moves && row.known == 0) row.waited += step;
-      if (torque) torque->act(particles, i, {});
-      continue;
-    }
-    if (half_step_ && !moves) {  // what it gets in whole steps is all that it gets
-      for (int k = 0; k < 2; ++k)
-        if (row.feels(k))
-          row.fluid[k].drag_factor_sum += row.share(k) * drag_factor(drag_law, row.fluid[k], 2 * radius,
-                                                                     norm(row.fluid[k].velocity - velocity));
-      continue;
-    }
-    const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, step);
-    struct Part {  // in one fluid
-      double beta = 0, added = 0;
-      Vec3 slip, across, overdue;
-    } parts[2];
-    const double late = half_step_ ? 0 : std::min(1.0, row.waited / step);
-    row.waited -= late * step;
-    FluidTorque::Grip grip;
-    double beta = 0, added = 0;
-    Vec3 pull, steady, accelerated;  // sums of beta slip, of what is constant in the step, of m_a Du/Dt
-    for (int k = 0; k < 2; ++k) {
-      CarriedFluid& fluid = row.fluid[k];
-      if (static_cast<int>(row.owed) >> k & 1) {
-        steady += fluid.left_over_force;
-        sums.left_over += fluid.left_over_force;
-      }
-      if (!row.feels(k)) continue;
-      Part& part = parts[k];
-      const double share = row.share(k);
-      part.slip = fluid.velocity - velocity;
-      part.beta = share * drag_factor(drag_law, fluid, 2 * radius, norm(part.slip));
-      fluid.drag_factor_sum += part.beta;
-      steady += share * fluid.pressure_force;
-      sums.pressure += share * fluid.pressure_force;
-      part.overdue = late * share * fluid.pressure_force;
-      if constexpr (with_gradients) {
-        const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
-        part.added = added_mass(row, k, radius);
-        part.across = share * (lift(fluid, gradients, 2 * radius, part.slip) +
-                               spin_lift(fluid, gradients, 2 * radius, vec3(particles.spin[i]), part.slip));
-        if (torque)
-          torque->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity, gradients.vorticity);
-        if (history && k == 0) {
-          const HistoryForce::Memory past =
-              history->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
-          part.across += past.force;
-          part.added += share * past.inertia;
-        }
-        steady += share * gradients.stress_force;
-        sums.stress += share * gradients.stress_force;
-        part.overdue += late * (share * gradients.stress_force +
-                                part.added * (gradients.acceleration - 1 / mass * weight));
-        accelerated += part.added * gradients.acceleration;
-        if (k == 0 && wetted > 0)
-          part.beta += parameters_.added_mass * (fluid.density - row.fluid[1].density) *
-                       sphere_volume(radius) * wetted / step;
-      }
-      beta += part.beta;
-      added += part.added;
-      pull += part.beta * part.slip;
-    }
-    if (torque) torque->act(particles, i, grip);
-    if (history && !row.feels(0)) history->forget(i);
-    Vec3 drag = pull, acceleration;
-    if (moves) {
-      const Vec3 others = contact + weight + constant + steady + parts[0].across + parts[1].across +
-                          accelerated + parts[0].overdue + parts[1].overdue;
-      if (beta > 0) drag = implicit_drag(beta, pull / beta, others, mass + added, step);
-      acceleration = (drag + others) / (mass + added);
-    }
-    Vec3 given;  // by the exchange: its reaction goes to the fluid
-    for (int k = 0; k < 2; ++k) {
-      if (!row.feels(k)) continue;
-      const Part& part = parts[k];
-      // Both fluids see the same mean velocity of the step.
-      Vec3 of_fluid = part.beta == beta ? drag : part.beta * (part.slip + (drag - pull) / beta);
-      of_fluid += part.overdue;
-      if constexpr (with_gradients) {
-        CarriedGradients& gradients = carried_by<CarriedGradientsRow>(all_gradients, i).fluid[k];
-        if (history && k == 0)
-          history->remember(i, row.share(0), part.slip, gradients.acceleration - acceleration);
-        const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
-        gradients.other_impulse += step * (other + part.overdue);
-        of_fluid += other;
-      }
-      row.fluid[k].drag_impulse += step * of_fluid;
-      given += of_fluid;
-    }
-    sums.drag += given;
-    if (moves)
-      store(external[i], given + steady + own);
-    else
-      sums.held += given + steady;
   }
   for (Vec3 WindowImpulses::*part : window_impulses)
-    force_sums_.*part += step / dem_.time_step() * (sums.*part);
+    force_sums_.*part += step.length / dem_.time_step() * (step.sums.*part);
   steps_ += !half_step_;
+}
+
+template <bool with_gradients, class Drag>
+FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step, int i) {
+  const ParticleArrays& particles = step.particles;
+  CarriedRow& row = carried_by(step.rows, i);
+  const double mass = particles.mass[i], radius = particles.radius[i], length = step.length;
+  const Vec3 velocity = vec3(particles.velocity[i]);
+  const Dem::Stream stream = dem_.stream(i);
+  const bool released = stream.releases && !half_step_;  // set-up is after the release
+  Found found;
+  const bool moves = found.moves = dem_.moves(particles.mask[i]) && !stream.carries && !released;
+  if (released) step.sums.held -= mass / length * stream.change;
+  const bool heavy = dem_.has_weight(particles.mask[i]);
+  const Vec3 weight = heavy ? mass * step.gravity : Vec3{}, constant = parameters_.constant;
+  const Vec3 weight_of_script = heavy ? mass * step.of_script : Vec3{};  // LIGGGHTS has added it
+  const Vec3 contact = vec3(particles.force[i]) - weight_of_script;
+  found.own = constant + (weight - weight_of_script);
+  found.others = contact + weight + constant;
+  found.touches = touches(contact, weight_of_script);
+  row.contacts.touching += found.touches;
+  ++row.contacts.evaluations;
+  if (!half_step_) row.path += length * velocity;  // that of the half step: what the position has moved with
+  if (moves && !half_step_) {                      // Dem::set_up() has given half a step of these
+    row.contacts.impulse += length * contact;
+    step.sums.contact += contact;
+    step.sums.gravity += weight;
+    step.sums.constant += constant;
+  } else if (moves) {
+    step.sums.gravity += weight - weight_of_script;
+  }
+  if (row.waits()) {
+    if (moves && row.known == 0) row.waited += length;
+    if (step.torque) step.torque->act(particles, i, {});
+    return found;
+  }
+  if (half_step_ && !moves) {  // what it gets in whole steps is all that it gets
+    for (int k = 0; k < 2; ++k)
+      if (row.feels(k))
+        row.fluid[k].drag_factor_sum += row.share(k) * drag_factor(drag_law, row.fluid[k], 2 * radius,
+                                                                   norm(row.fluid[k].velocity - velocity));
+    return found;
+  }
+  found.in_fluid = true;
+  const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, length);
+  const double late = half_step_ ? 0 : std::min(1.0, row.waited / length);
+  row.waited -= late * length;
+  FluidTorque::Grip grip;
+  Vec3 accelerated;  // sum of m_a Du/Dt
+  for (int k = 0; k < 2; ++k) {
+    CarriedFluid& fluid = row.fluid[k];
+    if (static_cast<int>(row.owed) >> k & 1) {
+      found.steady += fluid.left_over_force;
+      step.sums.left_over += fluid.left_over_force;
+    }
+    if (!row.feels(k)) continue;
+    Found::Part& part = found.parts[k];
+    const double share = row.share(k);
+    part.slip = fluid.velocity - velocity;
+    part.beta = share * drag_factor(drag_law, fluid, 2 * radius, norm(part.slip));
+    fluid.drag_factor_sum += part.beta;
+    found.steady += share * fluid.pressure_force;
+    step.sums.pressure += share * fluid.pressure_force;
+    part.overdue = late * share * fluid.pressure_force;
+    if constexpr (with_gradients) {
+      const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(step.gradients, i).fluid[k];
+      part.added = added_mass(row, k, radius);
+      part.across = share * (lift(fluid, gradients, 2 * radius, part.slip) +
+                             spin_lift(fluid, gradients, 2 * radius, vec3(particles.spin[i]), part.slip));
+      if (step.torque)
+        step.torque->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity,
+                               gradients.vorticity);
+      if (step.history && k == 0) {
+        const HistoryForce::Memory past =
+            step.history->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
+        part.across += past.force;
+        part.added += share * past.inertia;
+      }
+      found.steady += share * gradients.stress_force;
+      step.sums.stress += share * gradients.stress_force;
+      part.overdue +=
+          late * (share * gradients.stress_force + part.added * (gradients.acceleration - 1 / mass * weight));
+      accelerated += part.added * gradients.acceleration;
+      if (k == 0 && wetted > 0)
+        part.beta += parameters_.added_mass * (fluid.density - row.fluid[1].density) * sphere_volume(radius) *
+                     wetted / length;
+    }
+    found.beta += part.beta;
+    found.added += part.added;
+    found.pull += part.beta * part.slip;
+  }
+  if (step.torque) step.torque->act(particles, i, grip);
+  if (step.history && !row.feels(0)) step.history->forget(i);
+  const Found::Part(&parts)[2] = found.parts;
+  found.others = found.others + found.steady + parts[0].across + parts[1].across + accelerated +
+                 parts[0].overdue + parts[1].overdue;
+  return found;
+}
+
+Vec3 FluidForces::Found::drag(double mass, double step) const {
+  return moves && beta > 0 ? implicit_drag(beta, pull / beta, others, mass + added, step) : pull;
+}
+
+template <bool with_gradients>
+Vec3 FluidForces::force_on(DemStep& step, int i, const Found& found) {
+  if (!found.in_fluid) return found.moves ? found.own : Vec3{};
+  CarriedRow& row = carried_by(step.rows, i);
+  const double mass = step.particles.mass[i];
+  const Vec3 drag = found.drag(mass, step.length);
+  const Vec3 acceleration = found.moves ? (drag + found.others) / (mass + found.added) : Vec3{};
+  Vec3 given;  // by the exchange: its reaction goes to the fluid
+  for (int k = 0; k < 2; ++k) {
+    if (!row.feels(k)) continue;
+    const Found::Part& part = found.parts[k];
+    // Both fluids see the same mean velocity of the step.
+    Vec3 of_fluid =
+        part.beta == found.beta ? drag : part.beta * (part.slip + (drag - found.pull) / found.beta);
+    of_fluid += part.overdue;
+    if constexpr (with_gradients) {
+      CarriedGradients& gradients = carried_by<CarriedGradientsRow>(step.gradients, i).fluid[k];
+      if (step.history && k == 0)
+        step.history->remember(i, row.share(0), part.slip, gradients.acceleration - acceleration);
+      const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
+      gradients.other_impulse += step.length * (other + part.overdue);
+      of_fluid += other;
+    }
+    row.fluid[k].drag_impulse += step.length * of_fluid;
+    given += of_fluid;
+  }
+  step.sums.drag += given;
+  if (found.moves) return given + found.steady + found.own;
+  step.sums.held += given + found.steady;
+  return {};
 }
 
 const CarriedRow& FluidForces::carried(int i) const {
@@ -331,6 +355,7 @@ std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const 
     closures.emplace_back(name_of(parameters_.spin_lift), spin_lift_count_);
   if (torque_) closures.emplace_back("torque", torque_->count());
   if (history_) closures.emplace_back("history", history_->count());
+  if (lubrication_) closures.emplace_back("lubrication", lubrication_->count());
   return closures;
 }
 

@@ -14,6 +14,7 @@
 //                1929)
 //   F_history  = history.hpp, of the liquid or the only fluid; the present step's part as an added mass
 //   F_constant the case file's
+//   F_film     between particles, and particles and walls (lubrication.hpp), as part of what contacts do
 //   F_overdue  of a particle that came into being in a window and was told of no fluid before the next: for
 //   as
 //                long again as it has waited F_pressure + F_stress + m_a (Du/Dt - g) once more; drag is not
@@ -60,6 +61,7 @@
 #include "dem_side/dem.hpp"
 #include "dem_side/fluid_torque.hpp"
 #include "dem_side/history_force.hpp"
+#include "dem_side/lubrication.hpp"
 
 namespace demvof {
 
@@ -73,7 +75,7 @@ struct FluidsAtParticles {
 struct WindowImpulses {
   Vec3 drag, pressure, left_over, stress;  // on all particles; drag with lift and added mass
   Vec3 held;                        // of these what went to particles that no force moves, and Dem::Stream
-  Vec3 contact, gravity, constant;  // on the particles that forces move
+  Vec3 contact, gravity, constant;  // on the particles that forces move; contact with films
 };
 
 class FluidForces {
@@ -144,6 +146,41 @@ class FluidForces {
   void attach(const Drag& drag_law);
   template <bool with_gradients, class Drag>
   void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
+
+  /// One DEM step, or the first half of one.
+  struct DemStep {
+    const ParticleArrays& particles;
+    double length;                       // s
+    Vec3 gravity = {}, of_script = {};   // m/s2
+    double* const* rows = nullptr;       // of the particles
+    double* const* gradients = nullptr;  // likewise
+    FluidTorque* torque = nullptr;
+    HistoryForce* history = nullptr;
+    WindowImpulses sums = {};  // of this step alone: fewer numbers in one sum, less round-off
+  };
+  /// What a step has found of a particle before its acceleration is known.
+  struct Found {
+    bool moves = false;     // by the forces on it
+    bool touches = false;   // something
+    bool in_fluid = false;  // is told of one that acts in this step
+    struct Part {           // in one fluid
+      double beta = 0, added = 0;
+      Vec3 slip, across, overdue;
+    } parts[2];
+    double beta = 0, added = 0;                 // sums
+    Vec3 pull;                                  // sum of beta slip
+    Vec3 steady;                                // of the fluid, constant in the step
+    Vec3 own;                                   // to be added without any fluid
+    Vec3 others;                                // than drag
+    Vec3 drag(double mass, double step) const;  // mean of the step
+  };
+  template <bool with_gradients, class Drag>
+  Found find_forces(const Drag& drag_law, DemStep& step, int i);
+  void bear_films(DemStep& step, std::vector<Found>& all);
+  /// What is to be added to LIGGGHTS's force, N.
+  template <bool with_gradients>
+  Vec3 force_on(DemStep& step, int i, const Found& found);
+
   template <class Drag>
   double drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip);
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
@@ -169,6 +206,7 @@ class FluidForces {
   ClosureCount drag_count_, lift_count_, spin_lift_count_;
   std::optional<FluidTorque> torque_;
   std::optional<HistoryForce> history_;
+  std::optional<Lubrication> lubrication_;
 };
 
 }  // namespace demvof

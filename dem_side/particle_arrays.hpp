@@ -8,7 +8,8 @@
 
 namespace demvof {
 
-/// LIGGGHTS's own arrays of this rank's particles, not copied; valid until the next DEM step.
+/// LIGGGHTS's own arrays of this rank's particles, not copied; valid until the next DEM step. Places, radii
+/// and ids of ghosts stand behind them.
 struct ParticleArrays {
   int count = 0;
   double* const* position = nullptr;    // m

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "coupler/base/vec3.hpp"
+#include "coupler/closures/lubrication.hpp"
 
 namespace demvof {
 
@@ -22,6 +25,7 @@ struct ForceParameters {
   SpinLiftLaw spin_lift = SpinLiftLaw::none;
   bool torque = false;
   bool history = false;
+  std::optional<LubricationParameters> lubrication;
   bool capillary = false;
   SuspensionViscosity suspension_viscosity = SuspensionViscosity::none;  // in the fluid's stress
   Vec3 constant;                                                         // N on each particle, from outside

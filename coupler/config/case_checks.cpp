@@ -42,6 +42,7 @@ struct Checks {
   void adaptive_window() const;
   void order() const;
   void interchange() const;
+  void films() const;
   void scene() const;
 };
 
@@ -198,6 +199,18 @@ void Checks::interchange() const {
                          c.coupling.interchange_speed, largest, largest));
 }
 
+void Checks::films() const {
+  if (!c.forces.lubrication) return;
+  const auto& [cut_off, roughness, suction] = *c.forces.lubrication;
+  if (roughness < cut_off) return;
+  for (const char* name : {"forces.lubrication.roughness", "forces.lubrication.cut_off"})
+    if (sound({name}))
+      return add(name,
+                 fmt::format("films act between roughness, {}, and cut_off, {}: the second has to be above "
+                             "the first",
+                             roughness, cut_off));
+}
+
 void Checks::scene() const {
   if (sound({"scene.particles"}) && c.scene.particles == Switch::on && !c.particles)
     add("scene.particles", "on is impossible: the case has no section particles");
@@ -235,6 +248,7 @@ void check_case(const CaseParameters& parameters, const std::map<std::string, So
   checks.times();
   checks.order();
   checks.interchange();
+  checks.films();
   checks.scene();
 }
 

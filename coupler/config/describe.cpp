@@ -72,7 +72,9 @@ Json schema_of(const Key& key, const CaseParameters& defaults) {
   return schema;
 }
 
-Json list_section_schema(const Section& section) {
+Json section_schema(const std::string& path, const CaseParameters& defaults);
+
+Json list_section_schema(const Section& section, const CaseParameters& defaults) {
   Json entries = Json::array();
   for (const Key& key : case_keys()) {
     if (parent_of(key.path) != section.path) continue;
@@ -85,6 +87,15 @@ Json list_section_schema(const Section& section) {
                          {"required", Json::array({name})},
                          {"additionalProperties", false}});
     }
+  }
+  for (const Section& inside : case_sections()) {
+    if (parent_of(inside.path) != section.path) continue;
+    const std::string name = name_of_key(inside.path);
+    entries.push_back({{"description", inside.doc}, {"const", name}});
+    entries.push_back({{"type", "object"},
+                       {"properties", {{name, section_schema(inside.path, defaults)}}},
+                       {"required", Json::array({name})},
+                       {"additionalProperties", false}});
   }
   return {{"description", section.doc}, {"type", "array"}, {"items", {{"oneOf", entries}}}};
 }
@@ -101,7 +112,7 @@ Json section_schema(const std::string& path, const CaseParameters& defaults) {
     if (parent_of(section.path) != path) continue;
     const std::string name = name_of_key(section.path);
     const Json inside =
-        section.is_list ? list_section_schema(section) : section_schema(section.path, defaults);
+        section.is_list ? list_section_schema(section, defaults) : section_schema(section.path, defaults);
     if (properties.contains(name))  // a value, or this
       properties[name] = {{"oneOf", Json::array({properties[name], inside})}};
     else

@@ -224,6 +224,8 @@ void GivenValues::walk_list_entry(const YAML::Node& entry, const std::string& pa
   const Key* key = find_key(joined(path, word));
   if (key && key->rule.form != ValueRule::Form::flag)
     add_mistake(source_of(entry), key->path, "needs a value: write " + entry_example(word, key->rule));
+  else if (find_section(joined(path, word)))  // with its defaults
+    walk_item(word, YAML::Node(YAML::NodeType::Map), source_of(entry), path, seen);
   else
     walk_item(word, YAML::Node("true"), source_of(entry), path, seen);
 }

@@ -141,6 +141,11 @@ std::vector<Section> make_sections() {
       {"coupling.averaging", "How particles are averaged onto the bulk grid."},
       {"coupling.mapping", "How values go between the bulk grid and the fine mesh."},
       forces,
+      optional_section("forces.lubrication",
+                       "Film of fluid between particles that are near each other, and between particles and "
+                       "granular walls (fix wall/gran): resists their normal motion; written lubrication, or "
+                       "{lubrication: {roughness: 1e-4}}.",
+                       DEMVOF_AT(forces.lubrication)),
       {"scene", "What the run solves: found from the scene (auto) or forced (on, off)."},
       {"output", "What is written, and when."},
       {"limits",
@@ -298,6 +303,17 @@ std::vector<Key> make_keys() {
       key("forces.constant", list_of(3, number("N")),
           "The same force from outside on each particle, written {constant: [x, y, z]}.",
           DEMVOF_AT(forces.constant)),
+
+      key("forces.lubrication.cut_off", above(0, at_most(1, number("-"))),
+          "Widest film, over the mean radius of its two spheres, or the radius of the sphere at a wall; the "
+          "formula is that of narrow films.",
+          DEMVOF_AT(forces.lubrication->cut_off)),
+      key("forces.lubrication.roughness", above(0, at_most(1, number("-"))),
+          "Narrowest film, likewise: there asperities touch, and the fluid gets out between them.",
+          DEMVOF_AT(forces.lubrication->roughness)),
+      key("forces.lubrication.suction", flag(),
+          "The film resists surfaces that part as well; false: it cavitates.",
+          DEMVOF_AT(forces.lubrication->suction)),
 
       key("scene.particles", one_of<Switch>(), "Particles; off: the run is made without them.",
           DEMVOF_AT(scene.particles)),

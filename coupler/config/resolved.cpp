@@ -8,7 +8,14 @@ namespace {
 
 /// The map that holds a section's keys, made on the way.
 Json& place_of(Json& root, const std::string& section) {
-  return section.empty() ? root : place_of(root, parent_of(section))[name_of_key(section)];
+  if (section.empty()) return root;
+  const std::string parent = parent_of(section), name = name_of_key(section);
+  Json& outside = place_of(root, parent);
+  if (parent.empty() || !find_section(parent)->is_list) return outside[name];
+  for (Json& entry : outside)
+    if (entry.contains(name)) return entry[name];
+  outside.push_back(Json::object());
+  return outside.back()[name];
 }
 
 bool present(const CaseParameters& parameters, const std::string& section) {

@@ -94,6 +94,11 @@ void Plan::forces(const ForceParameters& forces) {
                      spin_lift);
   force_on_particles("torque on particles", forces.torque);
   force_on_particles("history force", forces.history);
+  const auto& films = forces.lubrication;
+  force_on_particles(films ? fmt::format("lubrication, gaps of {:g} to {:g} radii{}", films->roughness,
+                                         films->cut_off, films->suction ? "" : ", without suction")
+                           : "lubrication",
+                     films.has_value());
   force_on_particles("constant force on particles", norm(forces.constant) > 0);
 }
 

@@ -151,6 +151,31 @@ TEST(CaseFiles, NameForcesInAList) {
               need_gradients(forces("[{spin_lift: rubinow_keller}]")));
 }
 
+TEST(CaseFiles, NameLubricationByTheWordOrWithItsKeys) {
+  const CaseFile file(full);
+  const auto films = [&](const std::vector<std::string>& overrides) {
+    return read_case(file.path(), overrides).forces.lubrication;
+  };
+  EXPECT_FALSE(films({"forces=[pressure_gradient]"}));
+  const auto defaults = films({"forces=[pressure_gradient, lubrication]"});
+  ASSERT_TRUE(defaults);
+  EXPECT_EQ(defaults->cut_off, 0.1);
+  EXPECT_EQ(defaults->roughness, 1e-3);
+  EXPECT_TRUE(defaults->suction);
+  const auto given = films({"forces=[{lubrication: {cut_off: 0.2, suction: false}}]"});
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->cut_off, 0.2);
+  EXPECT_EQ(given->roughness, 1e-3);
+  EXPECT_FALSE(given->suction);
+  EXPECT_EQ(films({"forces=[lubrication]", "forces.lubrication.roughness=1e-5"})->roughness, 1e-5);
+  // The resolved configuration is a case file of the same case.
+  const std::string resolved = resolved_configuration(
+      read_case(file.path(), {"forces=[{drag: rong}, {lubrication: {cut_off: 0.2}}]"}));
+  std::ofstream(file.path()) << resolved;
+  EXPECT_EQ(resolved_configuration(read_case(file.path())), resolved);
+  EXPECT_EQ(read_case(file.path()).forces.lubrication->cut_off, 0.2);
+}
+
 TEST(CaseFiles, AcceptAnEndTimeOfWholeWindowsInDecimals) {
   // 0.3 / 1e-4 is 2999.9999999999995 in binary: round-off of decimal input is no mistake.
   const CaseFile file(plain);

@@ -73,7 +73,8 @@ inline std::filesystem::path scene_folder(const std::string& name, MPI_Comm worl
 /// Writes a script into a new folder and has it read.
 class Scene {
  public:
-  Scene(const std::string& name, const std::string& script, MPI_Comm world = MPI_COMM_WORLD)
+  Scene(const std::string& name, const std::string& script, MPI_Comm world = MPI_COMM_WORLD,
+        const std::filesystem::path& restart_file = {})
       : world_(world), folder_(scene_folder(name, world)) {
     int rank;
     MPI_Comm_rank(world, &rank);
@@ -82,7 +83,7 @@ class Scene {
       std::ofstream(folder_ / "in.scene") << script;
     }
     MPI_Barrier(world);
-    dem = std::make_unique<demvof::Dem>(world, folder_ / "in.scene", folder_ / "particles.log");
+    dem = std::make_unique<demvof::Dem>(world, folder_ / "in.scene", folder_ / "particles.log", restart_file);
   }
 
   ~Scene() {

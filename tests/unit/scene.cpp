@@ -56,7 +56,7 @@ TEST(ScenePlan, GivesEveryDecisionOnceWithOneSentence) {
       EXPECT_EQ(d.reason.back(), '.') << d.reason;
       names.push_back(d.decision);
     }
-    EXPECT_EQ(names.size(), 20u);
+    EXPECT_EQ(names.size(), 21u);
   }
 }
 
@@ -204,8 +204,16 @@ TEST(ScenePlan, SaysWhichForcesAct) {
   EXPECT_TRUE(decision(scene, "pressure-gradient force").on);
   for (const char* name : {"viscous stress on particles", "added mass", "lift", "lift by spin",
                            "viscosity of the suspension", "torque on particles", "history force",
-                           "capillary force on particles", "constant force on particles"})
+                           "lubrication", "capillary force on particles", "constant force on particles"})
     EXPECT_EQ(decision(scene, name).reason, "It is not named in forces.") << name;
+}
+
+TEST(ScenePlan, SaysBetweenWhichGapsFilmsAct) {
+  ForceParameters forces;
+  forces.lubrication = LubricationParameters{0.2, 1e-4, false};
+  EXPECT_TRUE(decision(plan_scene({}, three_phases(), forces),
+                       "lubrication, gaps of 0.0001 to 0.2 radii, without suction")
+                  .on);
 }
 
 TEST(ScenePlan, GivesTheSuspensionItsViscosity) {
