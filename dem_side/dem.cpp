@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <limits>
@@ -167,6 +169,14 @@ void Dem::renew_added_forces() {
 // "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
 void Dem::run(int steps) {
   guarded([&] { liggghts_->input->one(fmt::format("run {} pre no post no", steps).c_str()); });
+}
+
+void Dem::require_whole_log() const {
+  std::FILE* log = liggghts_->screen;
+  errno = 0;
+  if (log && (std::fflush(log) != 0 || std::ferror(log) != 0))
+    throw RunError(
+        fmt::format("cannot write {}: {}", log_.string(), errno ? std::strerror(errno) : "an earlier error"));
 }
 
 void Dem::write_restart(const fs::path& file) {

@@ -77,6 +77,8 @@ class Dem {
   /// Advances by a number of time steps. Throws SolverStopped when LIGGGHTS gives up.
   void run(int steps);
 
+  /// Throws RunError when not everything that LIGGGHTS has printed came to its log.
+  void require_whole_log() const;
   /// Writes particles, their rows and contacts, and the state of the script's fixes. Collective; the run goes
   /// on as if nothing had happened.
   void write_restart(const std::filesystem::path& file);

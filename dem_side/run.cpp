@@ -228,6 +228,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     fallback_results.window(link.number() - plan.windows_before, dem_steps, said, report.count());
     if (!link.writes()) continue;
     run_stage().set("output", time);
+    dem.require_whole_log();
     output.write(time, window, forces, averaging, fluid.means);
     link.both_have_written(to_text(write_particle_restart(options.out, link.number(), dem, steps)));
   }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -37,12 +39,48 @@ void require_prepared(const fs::path& folder, int ranks) {
                     folder.string(), mesh.string()));
 }
 
+/// A file that remembers the first error of a write, and takes everything all the same: OpenFOAM ends the
+/// program where its stream is bad, mostly in a place from which nothing can be thrown.
+class LogFile : public std::filebuf {
+ public:
+  int error() const { return error_; }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(std::filebuf::overflow(c), traits_type::eof())) note();
+    return traits_type::not_eof(c);
+  }
+  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
+    if (std::filebuf::xsputn(bytes, count) != count) note();
+    return count;
+  }
+  int sync() override {
+    if (std::filebuf::sync() != 0) note();
+    return 0;
+  }
+
+ private:
+  void note() {
+    if (is_open() && error_ == 0) error_ = errno;
+  }
+  int error_ = 0;
+};
+
+LogFile log_file;
+fs::path log_name;
+
 }  // namespace
 
 void send_output_to(const fs::path& log, int rank) {
-  static std::ofstream file;
-  if (rank == 0) file.open(log);
-  std::cout.rdbuf(file.rdbuf());
+  log_name = log;
+  if (rank == 0) log_file.open(log, std::ios::out);
+  std::cout.rdbuf(&log_file);
+}
+
+void require_whole_log() {
+  log_file.pubsync();
+  if (log_file.error() != 0)
+    throw RunError(fmt::format("cannot write {}: {}", log_name.string(), std::strerror(log_file.error())));
 }
 
 Foam::argList* open_case(const fs::path& folder, const OwnWorld& world) {

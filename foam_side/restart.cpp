@@ -12,6 +12,7 @@
 #include "IFstream.H"
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/base/words_of.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
@@ -217,7 +218,7 @@ void on_every_rank(const OwnWorld& world, const std::function<void()>& work) {
   } catch (const Foam::error& e) {  // its what() says nothing
     error = e.message();
   } catch (const std::exception& e) {
-    error = e.what();
+    error = words_of(e);
   }
   int failed = !error.empty();
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, world.comm()), "MPI_Allreduce");

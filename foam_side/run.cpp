@@ -187,6 +187,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.seconds = seconds;
     done.exchanged_bytes = link.statistics().bytes_sent + link.statistics().bytes_received;
     done.exchanged_cells = link.statistics().cells_sent + link.statistics().cells_received;
+    require_whole_log();
     record.window(flow, done, end_time);
     if (link.writes())
       write_state(options.out, parameters, link.number(), flow, bridge, record, steps, link, world);
@@ -210,6 +211,7 @@ RunStatus run_alone(Flow& flow, const CaseParameters& parameters, RunRecord& rec
     done.number = n;
     enter_books(flow, done.fluid);
     done.seconds = seconds;
+    require_whole_log();
     record.window(flow, done, flow.time.endTime().value());
     go_on = !Foam::returnReduce(stop_requested(), Foam::orOp<bool>());
   }

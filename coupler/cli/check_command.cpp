@@ -55,7 +55,7 @@ int check_command(const CaseOptions& options) {
   Watch watch;
   watch.on_line = [](const std::string& line) { fmt::print("{}\n", line); };
   watch.on_tick = [] {};
-  const int code = launch(command, watch);
+  const int code = launch(command, watch).code;
   fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");
   return code;
 }

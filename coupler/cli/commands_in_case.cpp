@@ -10,7 +10,7 @@
 #include <regex>
 #include <sstream>
 
-#include "coupler/config/printable.hpp"
+#include "coupler/base/printable.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {

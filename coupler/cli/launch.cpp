@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/base/printable.hpp"
 #include "coupler/cli/child_process.hpp"
 #include "coupler/cli/mpirun.hpp"
 #include "coupler/cli/prepare.hpp"
@@ -34,26 +35,14 @@ void on_stop_signal(int) {
   stop_requests = stop_requests + 1;
 }
 
-/// Counts stop signals while it lives.
-class StopSignals {
- public:
-  StopSignals() {
-    stop_requests = 0;
-    struct sigaction action = {};
-    action.sa_handler = on_stop_signal;
-    for (std::size_t i = 0; i < count; ++i) sigaction(numbers[i], &action, &before_[i]);
-  }
-  ~StopSignals() {
-    for (std::size_t i = 0; i < count; ++i) sigaction(numbers[i], &before_[i], nullptr);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-
- private:
-  static constexpr int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-  static constexpr std::size_t count = 3;
-  struct sigaction before_[count] = {};
-};
+/// From now on stop signals are counted, also when the programs have ended: what they have done is still
+/// said.
+void count_stop_signals() {
+  stop_requests = 0;
+  struct sigaction action = {};
+  action.sa_handler = on_stop_signal;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+}
 
 /// Lines out of a stream of bytes. What mpirun says in blocks between rows of dashes is set aside: the
 /// programs' own messages say it better, and it is shown only when there are none.
@@ -83,7 +72,7 @@ class Lines {
       chatter_.push_back(text);
     } else {
       said_something_ = said_something_ || !text.empty();
-      on_line_(text);
+      on_line_(printable_lines(text));
     }
   }
   std::function<void(const std::string&)> on_line_;
@@ -190,7 +179,7 @@ std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by,
       how, shell_line(command));
 }
 
-int launch(const LaunchCommand& command, const Watch& watch) {
+End launch(const LaunchCommand& command, const Watch& watch) {
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
   fcntl(pipe_ends[0], F_SETFL, O_NONBLOCK);
@@ -199,7 +188,7 @@ int launch(const LaunchCommand& command, const Watch& watch) {
   options.output = pipe_ends[1];
   options.own_group = true;
 
-  StopSignals signals;
+  count_stop_signals();
   ChildProcess programs(command.words, options);
   close(pipe_ends[1]);
   Lines lines(watch.on_line);
@@ -229,7 +218,7 @@ int launch(const LaunchCommand& command, const Watch& watch) {
     if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
         !end.empty())
       watch.on_line(end);
-  return run_exit_code(*code, command.pair, passed_on > 0);
+  return {run_exit_code(*code, command.pair, passed_on > 0), passed_on > 0};
 }
 
 }  // namespace demvof

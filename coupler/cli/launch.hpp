@@ -33,9 +33,14 @@ struct Watch {
   std::function<void()> on_tick;                    // about four times a second
 };
 
+struct End {
+  int code;         // 0, 2, 3 or 4 (README)
+  bool user_asked;  // for it
+};
+
 /// Starts the programs and waits for their end. The first Ctrl-C, SIGTERM or hang-up of the terminal
-/// asks them to stop at the end of the window, the second ends them. Returns 0, 2, 3 or 4 (README).
-int launch(const LaunchCommand& command, const Watch& watch);
+/// asks them to stop at the end of the window, the second ends them.
+End launch(const LaunchCommand& command, const Watch& watch);
 
 /// The run's exit code from that of mpirun, or of a program alone.
 int run_exit_code(int code, bool pair, bool ended_by_user);

@@ -9,6 +9,8 @@
 #include <functional>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/base/printable.hpp"
+#include "coupler/base/words_of.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/manual.hpp"
 #include "coupler/cli/versions.hpp"
@@ -181,10 +183,10 @@ int main(int argc, char** argv) {
   try {
     return CommandLine().run(argc, argv);
   } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable_lines(words_of(error)));
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "demvof: {}\n", error.what());
+    fmt::print(stderr, "demvof: {}\n", printable_lines(words_of(error)));
     return 3;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include "coupler/base/printable.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/commands_in_case.hpp"
 #include "coupler/cli/last_results.hpp"
@@ -14,6 +15,12 @@
 namespace demvof {
 namespace {
 
+namespace fs = std::filesystem;
+
+fs::path results_file(const RunFolder& folder) {
+  return folder.path() / "results.json";
+}
+
 std::vector<std::string> program_arguments(const CaseOptions& options, const RunOptions& run,
                                            const RunFolder& folder) {
   std::vector<std::string> arguments = {"--out", folder.path().string()};
@@ -24,19 +31,27 @@ std::vector<std::string> program_arguments(const CaseOptions& options, const Run
   return arguments;
 }
 
-/// mpirun's word and results.json have to agree before a run counts as done.
-int confirmed(int code, const nlohmann::ordered_json& results) {
-  const std::string status = results.is_object() ? results.value("status", "") : "";
-  return code == 0 && status != "completed" ? 3 : code;
+/// mpirun's word and results.json have to agree before a run counts as done. A stop that the user asked for
+/// when all was done may have met mpirun in its end.
+int confirmed(const End& end, const nlohmann::ordered_json& results) {
+  const bool completed = results.is_object() && results.value("status", "") == "completed";
+  if (completed && end.code == 3 && end.user_asked) return 0;
+  return end.code == 0 && !completed ? 3 : end.code;
+}
+
+/// Tells a file from one that has taken its place.
+fs::file_time_type time_of(const fs::path& file) {
+  std::error_code none;
+  return fs::last_write_time(file, none);
 }
 
 /// said_why: the programs have told the user what went wrong.
 void print_end(int code, const nlohmann::ordered_json& results, const RunFolder& folder, bool said_why) {
   if (!results.is_object())
-    fmt::print("\nThe programs left no {}.\n", (folder.path() / "results.json").string());
+    fmt::print("\nThe programs left no {} of this run.\n", results_file(folder).string());
   else
-    fmt::print("\n{}", run_summary(results));
-  if (code != 0 && !said_why) fmt::print("{}\n", failure_text(results));
+    fmt::print("\n{}", printable_lines(run_summary(results)));
+  if (code != 0 && !said_why) fmt::print("{}\n", printable_lines(failure_text(results)));
   fmt::print("\n{}", output_list(folder.path()));
 }
 
@@ -81,15 +96,18 @@ int run_command(CaseOptions options, const RunOptions& run) {
     display.print(line);
   };
   watch.on_tick = [&] { display.update(); };
-  const int launched = launch(command, watch);
+  const auto before = time_of(results_file(folder));
+  const End end = launch(command, watch);
   display.finish();
 
   folder.wait_for_programs(10);  // mpirun may have been killed before them
-  if (launched == 3 || launched == 4) write_last_results(folder.path(), parameters, command.words, launched);
+  if (end.code == 3 || end.code == 4) write_last_results(folder.path(), parameters, command.words, end.code);
   remove_notes(folder.path());
-  const nlohmann::ordered_json results = read_results(folder.path());
-  const int code = confirmed(launched, results);
-  if (run.continues && code == 2) return code;  // the results there are those of the run as it was
+  // What was there before is the result of the run as it was.
+  const bool of_this_run = time_of(results_file(folder)) != before;
+  const nlohmann::ordered_json results = of_this_run ? read_results(folder.path()) : nlohmann::ordered_json();
+  const int code = confirmed(end, results);
+  if (run.continues && code == 2) return code;
   if (!run.quiet || code != 0) print_end(code, results, folder, said_something);
   return code;
 }

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
+#include "coupler/base/printable.hpp"
 #include "coupler/cli/last_results.hpp"
 #include "coupler/cli/redistribute.hpp"
-#include "coupler/config/printable.hpp"
 #include "coupler/config/read_case.hpp"
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/state_frame.hpp"
@@ -107,6 +108,8 @@ RunFolder::Continuable RunFolder::require_continuable(std::optional<long> from) 
       std::remove_if(changes.begin(), changes.end(),
                      [](const std::string& line) { return line.rfind("coupling.end_time:", 0) == 0; }),
       changes.end());
+  if (point.written_by != version())
+    changes.insert(changes.begin(), fmt::format("demvof: {}, now {}", point.written_by, version()));
   return {point, changes};
 }
 
@@ -145,11 +148,14 @@ void RunFolder::hold() const {
   if (lock_) return;
   // OpenFOAM drops blanks and quotes from names of files, LIGGGHTS puts numbers in the place of * and %.
   const std::string name = fs::absolute(path_).lexically_normal().string();
-  if (const std::size_t at = name.find_first_of(" \t\n\r\v\f\"'`\\;*%${}"); at != std::string::npos)
+  const auto unfit = [](char c) {
+    return static_cast<unsigned char>(c) <= ' ' || c == 0x7f || std::strchr("\"'`\\;*%${}", c) != nullptr;
+  };
+  if (const auto at = std::find_if(name.begin(), name.end(), unfit); at != name.end())
     throw InputError(
         fmt::format("--out {}: OpenFOAM and LIGGGHTS take no folder with '{}' in its path; choose "
                     "another --out",
-                    printable(name), printable(name.substr(at, 1))));
+                    printable(name), printable({*at})));
   std::error_code error;
   fs::create_directories(path_, error);
   if (error)

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "coupler/base/printable.hpp"
 #include "coupler/config/enum_names.hpp"
 #include "coupler/config/keys.hpp"
-#include "coupler/config/printable.hpp"
 #include "coupler/config/read_case.hpp"
 
 namespace demvof {

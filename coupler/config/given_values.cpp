@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/base/printable.hpp"
 #include "coupler/config/keys.hpp"
 #include "coupler/config/nearest.hpp"
-#include "coupler/config/printable.hpp"
 
 namespace demvof {
 namespace {

@@ -8,8 +8,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "coupler/base/printable.hpp"
 #include "coupler/config/nearest.hpp"
-#include "coupler/config/printable.hpp"
 
 namespace demvof {
 namespace {

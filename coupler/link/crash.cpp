@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <new>
 
 #include "coupler/link/failure.hpp"
 #include "coupler/link/watch.hpp"
@@ -43,6 +44,7 @@ const char* meaning(int number) {
 }  // namespace
 
 void install_crash_handlers() {
+  std::set_new_handler(nullptr);  // no memory: std::bad_alloc, not a library's own way to give up
   stack_t stack = {};
   stack.ss_sp = stack_of_handler.data();
   stack.ss_size = stack_of_handler.size();

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "coupler/base/printable.hpp"
 #include "coupler/link/run_stage.hpp"
 
 namespace demvof {
@@ -59,7 +60,7 @@ bool claim_failure() {
 
 void report_failure(const Failure& failure, const std::string& text, bool quiet) {
   if (!quiet) {
-    const std::string lines = fmt::format("\n{}\n", text);
+    const std::string lines = fmt::format("\n{}\n", printable_lines(text));
     std::fwrite(lines.data(), 1, lines.size(), stderr);
     std::fflush(stderr);
   }

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <exception>
-#include <new>
 #include <string>
 
 #include "coupler/base/errors.hpp"
+#include "coupler/base/words_of.hpp"
 #include "coupler/link/failure.hpp"
 #include "coupler/link/run_stage.hpp"
 
@@ -39,12 +39,8 @@ int guarded_main(OwnWorld& world, const std::function<int()>& body) {
         exit_failed,
         stopped(world, fmt::format("{}.\nWhat to try: the solver wrote the reason to {}.", error.what(),
                                    world.side() == Side::fluid ? "fluid.log" : "particles.log")));
-  } catch (const std::bad_alloc&) {
-    world.fail(exit_failed, stopped(world,
-                                    "the machine has no more memory for it.\nWhat to try: a coarser mesh "
-                                    "or bulk grid, or more machines."));
   } catch (const std::exception& error) {
-    world.fail(exit_failed, stopped(world, error.what()));
+    world.fail(exit_failed, stopped(world, words_of(error)));
   } catch (...) {
     world.fail(exit_failed, stopped(world, "an exception of unknown kind"));
   }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/base/words_of.hpp"
 #include "coupler/link/pmpi.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
@@ -50,7 +51,7 @@ void on_terminate() {
     try {
       std::rethrow_exception(thrown);
     } catch (const std::exception& error) {
-      why = error.what();
+      why = words_of(error);
     } catch (...) {
     }
   }

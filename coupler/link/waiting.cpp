@@ -15,7 +15,8 @@ namespace {
 
 // An answer that is on its way is met at once; after that a pause is a tenth of what was waited so far:
 // being late costs at most that, and a long wait costs next to no CPU time.
-constexpr double without_pause = 50e-6;                                              // s
+constexpr double without_pause = 50e-6;  // s
+constexpr double longest_turn = 1;       // s: who comes back later was stopped
 constexpr double shortest_pause = 20e-6, longest_pause = 1e-3, share_of_wait = 0.1;  // s, s, -
 
 double now() {
@@ -34,7 +35,7 @@ Waiting::Waiting(const OwnWorld& world, double time_out_seconds)
   set_up_.emplace(world.self(), partners);
 }
 
-Waiting::Wait::Wait(Waiting& waiting) : waiting_(waiting), begin_(now()) {
+Waiting::Wait::Wait(Waiting& waiting) : waiting_(waiting), begin_(now()), looked_(begin_) {
   waiting_.world_.pair().watch->main_thread_waits(true);
   if (waiting_.set_up_) waiting_.set_up_->silence();
 }
@@ -50,15 +51,17 @@ double Waiting::Wait::seconds() const {
 bool Waiting::Wait::sleep() {
   waiting_.world_.pair().watch->check();
   waiting_.throw_received();
-  const double waited = seconds();
+  const double time = now(), waited = time - begin_;
+  awake_ += std::min(time - looked_, longest_turn);
+  looked_ = time;
   if (waited < without_pause) {
     sched_yield();
     return false;
   }
   const double pause = std::clamp(share_of_wait * waited, shortest_pause, longest_pause);
-  const timespec time{0, static_cast<long>(1e9 * pause)};
-  nanosleep(&time, nullptr);  // a signal may end it early
-  return waited > waiting_.time_out_ &&
+  const timespec turn{0, static_cast<long>(1e9 * pause)};
+  nanosleep(&turn, nullptr);  // a signal may end it early
+  return awake_ > waiting_.time_out_ &&
          (!waiting_.set_up_ || waiting_.set_up_->silence() > waiting_.time_out_);
 }
 
@@ -74,13 +77,18 @@ void Waiting::throw_received() const {
 }
 
 void Waiting::give_up(const std::string& waiting_for) const {
+  const auto& all = world_.pair().processes;
+  const auto stopped = std::find_if(all.begin(), all.end(), [this](const Process& process) {
+    return process.host == world_.self().host && activity_of(process).state == 'T';
+  });
+  const bool found = stopped != all.end();
   const std::string text = fmt::format(
-      "{} waited {:g} s for {} ({}) and gave up.\n"
-      "What to try: look whether the partner is stuck; raise coupling.time_out if its windows "
-      "take that long.",
-      world_.self().name(), time_out_, waiting_for, run_stage().describe());
-  const Side silent = world_.side() == Side::fluid ? Side::particles : Side::fluid;
-  heard_of(failure_here(silent, exit_partner_lost, text));
+      "{} waited {:g} s for {} ({}) and gave up{}.\nWhat to try: {}", world_.self().name(), time_out_,
+      waiting_for, run_stage().describe(), found ? fmt::format(": {} is stopped", stopped->name()) : "",
+      found ? "see who stops it (SIGSTOP, Ctrl-Z, a debugger, a batch system), and let it go on (SIGCONT) in "
+              "time."
+            : "look whether the partner is stuck; raise coupling.time_out if its windows take that long.");
+  heard_of(failure_here(found ? stopped->side : partner_of(world_.side()), exit_partner_lost, text));
   throw PartnerLost(text);
 }
 

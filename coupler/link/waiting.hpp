@@ -13,7 +13,8 @@ namespace demvof {
 class Waiting {
  public:
   /// Until set_up_done() the time-out counts from the last sign of life of the partner's processes, not from
-  /// the start of a wait: reading a mesh, or settling a bed, takes as long as it takes.
+  /// the start of a wait: reading a mesh, or settling a bed, takes as long as it takes. Time in which this
+  /// process was itself stopped does not count.
   Waiting(const OwnWorld& world, double time_out_seconds);
   void set_up_done() { set_up_.reset(); }
 
@@ -42,7 +43,7 @@ class Waiting {
    private:
     bool sleep();  // true when the time-out has passed
     Waiting& waiting_;
-    double begin_;
+    double begin_, looked_, awake_ = 0;
   };
   [[noreturn]] void give_up(const std::string& waiting_for) const;
   void throw_received() const;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -38,7 +39,8 @@ Vec3 vec3(const Json& json) {
 }
 
 std::string text_of(const RestartPoint& point) {
-  Json text = {{"window", point.window},
+  Json text = {{"version", point.written_by},
+               {"window", point.window},
                {"time", point.time},
                {"fluid_time", point.fluid_time},
                {"window_length", point.frame.window_length},
@@ -56,9 +58,10 @@ std::string text_of(const RestartPoint& point) {
 RestartPoint read(const fs::path& path) {
   std::ifstream stream(path);
   if (!stream) throw InputError(fmt::format("there is no {}", path.string()));
+  RestartPoint point;
   try {
     Json text = Json::parse(stream);
-    RestartPoint point;
+    point.written_by = text.value("version", "an unknown version");
     point.checksum = text.at("checksum");
     text.erase("checksum");
     if (Checksum().add(text.dump()).text() != point.checksum)
@@ -75,7 +78,10 @@ RestartPoint read(const fs::path& path) {
     point.files = state_files(text.at("files").dump());
     return point;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+    const std::string by = point.written_by == version() ? ""
+                                                         : fmt::format(" (written by demvof {}; this is {})",
+                                                                       point.written_by, version());
+    throw InputError(fmt::format("{}: {}{}", path.string(), error.what(), by));
   }
 }
 
@@ -85,8 +91,10 @@ std::vector<long> windows_of_states(const fs::path& run) {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_of_all(run), none)) {
     const std::string name = entry.path().filename().string();
-    if (entry.is_directory() && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos)
-      windows.push_back(std::stol(name));
+    long window = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), window);
+    if (entry.is_directory() && error == std::errc() && end == name.data() + name.size() && window >= 0)
+      windows.push_back(window);
   }
   std::sort(windows.rbegin(), windows.rend());
   return windows;

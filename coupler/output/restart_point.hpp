@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupler/base/vec3.hpp"
+#include "coupler/output/machine.hpp"
 #include "coupler/output/state_files.hpp"
 
 namespace demvof {
@@ -36,7 +37,8 @@ struct RestartPoint {
   StateFrame frame;
   std::string configuration;  // of the run, JSON text
   StateFiles files;
-  std::string checksum = {};  // of all this; set by reading
+  std::string written_by = version();  // of demvof
+  std::string checksum = {};           // of all this; set by reading
 };
 
 /// Folder of the state at the end of a window.

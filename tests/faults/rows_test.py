@@ -100,6 +100,39 @@ class Rows(Injected):
         self.assertNotEqual(code, 0, text)
         self.assertLess(seconds, 40)
 
+    @slow
+    def test_no_more_memory_for_a_rank(self):
+        """In the middle of the run: what it has is all that it may have."""
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1)
+        for ranks in (1, 2):
+            shutil.rmtree(self.out, ignore_errors=True)
+            pair = Pair(DEMVOF, self.case_file, self.out, "--fluid-ranks", str(ranks))
+            pair.wait_for_window(2)
+            victim = pair.pids("foam_side")[-1]
+            [size] = [line.split()[1] for line in pathlib.Path(f"/proc/{victim}/status").read_text().splitlines()
+                      if line.startswith("VmSize:")]
+            resource.prlimit(victim, resource.RLIMIT_AS, (1024 * int(size),) * 2)
+            code, text = pair.wait(60)
+            self.assertEqual(code, 3, text)
+            failure = status(self.out)["failure"]
+            self.assertEqual(failure["side"], "fluid")
+            self.assertGreater(failure["time"], 0)
+            self.assertIn("no more memory", failure["message"])
+
+    @slow
+    def test_a_flow_that_blows_up(self):
+        """SIGFPE in the solver itself."""
+        self.case_file = beads_into_water(self.folder, end_time=0.2, coupling={"window": 0.05})
+        control = self.case_file.parent / "fluid/system/controlDict"
+        control.write_text(control.read_text() + "\nmaxCo 500;\nmaxAlphaCo 500;\ndeltaT 0.05;\n")
+        for ranks in ("1", "2"):
+            code, text = demvof(self.case_file, self.out, "--fluid-ranks", ranks, "--particle-ranks", ranks)
+            self.assertEqual(code, 3, text)
+            failure = status(self.out)["failure"]
+            self.assertEqual((failure["side"], failure["stage"]), ("fluid", "fluid step"))
+            self.assertGreater(failure["time"], 0)
+            self.assertIn("SIGFPE", failure["message"])
+
     # ---- particles that cannot be
 
     def with_beads(self, *beads):
@@ -185,7 +218,7 @@ class Rows(Injected):
 
     # ---- signals
 
-    def interrupted(self, when, number=signal.SIGINT, program=None, finished_is_right=True):
+    def interrupted(self, when, number=signal.SIGINT, program=None):
         shutil.rmtree(self.out, ignore_errors=True)
         pair = Pair(DEMVOF, self.case_file, self.out, "--quiet")
         when(pair)
@@ -194,7 +227,7 @@ class Rows(Injected):
         code, text = pair.wait(60)
         self.assertLess(time.monotonic() - begin, 20)
         end = status(self.out)["status"]
-        self.assertIn((code, end), {(3, "interrupted"), (0, "completed"), (-number, "completed"), (3, "failed"), (4, "failed")}, text)
+        self.assertIn((code, end), {(3, "interrupted"), (0, "completed"), (3, "failed"), (4, "failed")}, text)
         return code, end
 
     def test_control_c_at_the_start(self):
@@ -212,6 +245,15 @@ class Rows(Injected):
                 self.assertEqual(demvof(self.case_file, self.out, "--continue")[0], 0)
                 self.assertEqual(status(self.out)["status"], "completed")
 
+    def test_control_c_when_all_is_done(self):
+        """Between the last window and the last word of demvof."""
+        for delay in (0, *(0.02 * i for i in range(30))) if LONG else (0, 0.05):
+            def when(pair, delay=delay):
+                while not (self.out / "results.json").exists() and pair.process.poll() is None:
+                    time.sleep(0.002)
+                time.sleep(delay)
+            self.assertEqual(self.interrupted(when), (0, "completed"), f"after {delay} s")
+
     @slow
     def test_signals_to_mpirun(self):
         self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1)
@@ -222,17 +264,61 @@ class Rows(Injected):
     @slow
     def test_a_side_stopped_for_longer_than_the_time_out(self):
         self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), end_time=1, coupling={"time_out": 3})
-        for program, side in (("foam_side", "fluid"), ("dem_side", "particles")):
+        for program, side, rank in (("foam_side", "fluid", 0), ("foam_side", "fluid", 1),
+                                    ("dem_side", "particles", 0), ("dem_side", "particles", 1)):
             shutil.rmtree(self.out, ignore_errors=True)
-            pair = Pair(DEMVOF, self.case_file, self.out)
+            pair = Pair(DEMVOF, self.case_file, self.out, "--fluid-ranks", "2", "--particle-ranks", "2")
             pair.wait_for_window(2)
-            os.kill(pair.pids(program)[0], signal.SIGSTOP)
+            stopped = pair.pids(program)[rank]
+            os.kill(stopped, signal.SIGSTOP)
             code, text = pair.wait(60)
             self.assertEqual(code, 4, text)
-            self.assertEqual(status(self.out)["status"], "failed")
-            self.assertIn("waited 3 s", status(self.out)["failure"]["message"])
-            self.assertEqual(status(self.out)["failure"]["side"], side)
+            failure = status(self.out)["failure"]
+            self.assertIn("waited 3 s", failure["message"])
+            self.assertIn(f"(process {stopped} on ", failure["message"].split("gave up: ")[1])
+            self.assertIn("is stopped", failure["message"])
+            self.assertEqual(failure["side"], side)
             self.assertEqual(pair.pids("foam_side") + pair.pids("dem_side"), [])
+
+    @slow
+    def test_all_stopped_for_longer_than_the_time_out(self):
+        """Nobody has waited while nobody could."""
+        self.case_file = beads_into_water(self.folder, fine=(40, 20, 40), coupling={"time_out": 3})
+        pair = Pair(DEMVOF, self.case_file, self.out)
+        pair.wait_for_window(2)
+        programs = pair.pids("foam_side") + pair.pids("dem_side")
+        for number, seconds in ((signal.SIGSTOP, 5), (signal.SIGCONT, 0)):
+            for program in programs:
+                os.kill(program, number)
+            time.sleep(seconds)
+        code, text = pair.wait(120)
+        self.assertEqual(code, 0, text)
+
+    # ---- messages
+
+    def test_control_characters_of_the_solvers_files(self):
+        for file, old, new in (("fluid/constant/transportProperties", "rho 1000", "rho \x1b[31mred\x1b[0m"),
+                               ("fluid/system/fvSchemes", "Euler", "\x1b]0;title\x07"),
+                               ("particles/in.particles", "newton off", "newton \x1b[2Joff")):
+            with self.subTest(file):
+                path = self.case_file.parent / file
+                good = path.read_text()
+                self.assertIn(old, good)
+                path.write_text(good.replace(old, new, 1))
+                code, text = demvof(self.case_file, self.out)
+                path.write_text(good)
+                self.assertEqual(code, 2, text)
+                self.assertNotIn("\x1b", text)
+
+    def test_a_log_on_a_full_disk(self):
+        for log in ("fluid.log", "particles.log"):
+            prepare(self.case_file, self.out)
+            (self.out / log).symlink_to("/dev/full")
+            code, text, _ = by_hand(self.case_file, (self.out, self.out))
+            self.assertNotEqual(code, 0, text)
+            self.assertIn(f"cannot write {self.out / log}: No space left on device", text)
+            if (self.out / "results.json").exists():
+                self.assertEqual(status(self.out)["status"], "failed")
 
     # ---- files that go while the run goes on
 

@@ -37,7 +37,7 @@ HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$
 CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
 CONTINUED = {"^pair.continued$": PAIR}
-ROWS = {"^faults_rows$": [*PAIR, "failing_files"]}
+WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
 
 FAULTS = [
     # ---- closures
@@ -281,10 +281,14 @@ FAULTS = [
     ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
+    ("coupler/cli/launch.cpp", "on_line_(printable_lines(text));", "on_line_(text);", WRONG_USE),
+    ("coupler/cli/run_command.cpp", "end.code == 3 && end.user_asked", "false", WRONG_USE),
+    ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
+    ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
     ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "entry", CONTINUED),
     ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1", CONTINUED),
-    ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", ROWS),
+    ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", WRONG_USE),
     ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
-     """{"--continue (checksum of the state)", ""}""", ROWS),
+     """{"--continue (checksum of the state)", ""}""", WRONG_USE),
 ]

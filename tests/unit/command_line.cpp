@@ -79,7 +79,7 @@ TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
   Watch watch;
   watch.on_line = [&](const std::string& line) { said += line; };
   watch.on_tick = [] {};
-  EXPECT_EQ(launch(command, watch), 4);
+  EXPECT_EQ(launch(command, watch).code, 4);
   EXPECT_EQ(said, "mpirun does not end though its programs have: killing it");
   setenv("PATH", path.c_str(), 1);
   fs::remove_all(folder);

@@ -109,6 +109,32 @@ TEST_F(RestartPoints, WithoutOneIsTheUsersMistake) {
   EXPECT_THROW(read(), InputError);
 }
 
+TEST_F(RestartPoints, OneOfAnotherVersionSaysSo) {
+  write(5);
+  std::ofstream(run_ / "restart" / "latest.json") << R"({"version": "9.9", "checksum": "?"})";
+  try {
+    read();
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is not what was written"), std::string::npos);
+  }
+  std::ofstream(run_ / "restart" / "latest.json") << R"({"version": "9.9", "window": 7})";
+  try {
+    read();
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("written by demvof 9.9"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("--continue --from 5"), std::string::npos);
+  }
+}
+
+TEST_F(RestartPoints, AFolderWithAHugeNumberIsNoState) {
+  write(5);
+  fs::create_directories(run_ / "restart" / "99999999999999999999");
+  write(6);
+  EXPECT_EQ(read().window, 6);
+}
+
 /// Every bit of every file, and of what is said about them.
 TEST_F(RestartPoints, NoFlippedBitIsAccepted) {
   write(5);
