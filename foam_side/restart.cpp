@@ -284,6 +284,17 @@ void write_fields(Flow& flow) {
         fmt::format("OpenFOAM could not write all of {}: is the disk full?", time_folder(flow).string()));
 }
 
+/// Of this rank; no step changes them.
+const StateFiles& mesh_files(const fs::path& run, const Flow& flow) {
+  static const StateFiles files = [&] {
+    StateFiles found;
+    add_state_folder(found, run,
+                     fs::path(static_cast<const std::string&>(flow.time.path())) / "constant" / "polyMesh");
+    return found;
+  }();
+  return files;
+}
+
 void write_state(const fs::path& run, const CaseParameters& parameters, long window, Flow& flow,
                  const Bridge& bridge, const RunRecord& record, const WindowSteps& steps, FluidEnd& link,
                  const OwnWorld& world) {
@@ -293,6 +304,7 @@ void write_state(const fs::path& run, const CaseParameters& parameters, long win
     write_fields(flow);
     write_fluid_restart(run, window, flow, parameters.forces, bridge, record, steps);
     add_state_folder(files, run, time_folder(flow));
+    files.insert(mesh_files(run, flow).begin(), mesh_files(run, flow).end());
     add_state_file(files, run, file_of_rank(run, window));
     if (world.rank() == 0) add_state_file(files, run, run / "history.csv", true);
   });

@@ -250,6 +250,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   }
   send_output_to(options.out / "fluid.log", world.rank());
   const std::optional<RefinementParameters>& refinement = parameters.fluid.refinement;
+  if (refinement && start && !fs::exists(options.out / "fluid" / "constant" / "dynamicMeshDict"))
+    throw InputError("--continue: fluid.refinement was not given in the run; remove it, or start a new run");
   if (refinement && world.rank() == 0) write_mesh_dictionary(options.out / "fluid", *refinement);
   if (!paired && world.partner_size() > 0)
     throw InputError(parameters.file + ": the run is made without particles, but dem_side was started, too");

@@ -107,8 +107,11 @@ void redistribute(const CaseParameters& parameters, const RunFolder& folder, con
   for (auto file = divided.files.begin(); file != divided.files.end();)
     file = of_fluid(file->first) ? divided.files.erase(file) : std::next(file);
   StateFiles fields;
-  for (int rank = 0; rank < ranks; ++rank)
-    add_state_folder(fields, made, (ranks > 1 ? made / part_of_rank(rank) : made) / point.fluid_time);
+  for (int rank = 0; rank < ranks; ++rank) {
+    const fs::path part = ranks > 1 ? made / part_of_rank(rank) : made;
+    for (const fs::path& folder : {part / point.fluid_time, part / "constant" / "polyMesh"})
+      add_state_folder(fields, made, folder);
+  }
   for (const auto& [name, facts] : fields) divided.files["fluid/" + name] = facts;
 
   fs::rename(made, other(run_folder));

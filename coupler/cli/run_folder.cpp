@@ -110,6 +110,15 @@ RunFolder::Continuable RunFolder::require_continuable(std::optional<long> from) 
       changes.end());
   if (point.written_by != version())
     changes.insert(changes.begin(), fmt::format("demvof: {}, now {}", point.written_by, version()));
+  if (last_change(beside_case_file(parameters_, parameters_.fluid.case_folder)) >
+      fs::last_write_time(path_ / marker))
+    changes.push_back(
+        fmt::format("fluid.case: files have changed; the run keeps its copy, {}", fluid().string()));
+  const fs::path script =
+      parameters_.particles ? beside_case_file(parameters_, parameters_.particles->script) : "";
+  if (fs::exists(script) &&
+      fs::last_write_time(script) > fs::last_write_time(restart_folder(path_, point.window)))
+    changes.push_back(fmt::format("particles.script: {} has changed", script.string()));
   return {point, changes};
 }
 

@@ -56,8 +56,9 @@ std::string text_of(const RestartPoint& point) {
 
 /// Throws InputError when the file is not there or not what text_of() made.
 RestartPoint read(const fs::path& path) {
-  std::ifstream stream(path);
-  if (!stream) throw InputError(fmt::format("there is no {}", path.string()));
+  std::ifstream stream;
+  if (fs::is_regular_file(path)) stream.open(path);
+  if (!stream.is_open()) throw InputError(fmt::format("there is no {}", path.string()));
   RestartPoint point;
   try {
     Json text = Json::parse(stream);
