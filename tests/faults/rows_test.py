@@ -45,12 +45,17 @@ class Rows(Injected):
         code, text = demvof(self.case_file, self.out, "--set", "coupling.end_time=0.004")
         self.assertEqual(code, 0, text)
         before = {f: f.read_bytes() for f in self.out.rglob("*") if f.is_file() and f.name not in (".lock", "fluid.log")}
+        for file in ("particles/in.particles", "fluid/constant/transportProperties"):
+            os.utime(self.case_file.parent / file)
         for message, setting in (("fluid.refinement was not given in the run", "fluid.refinement={levels: 1}"),
                                  ("bulk_grid.upper was [0.04, 0.02, 0.04]", "bulk_grid.upper=[0.04, 0.02, 0.05]")):
             with self.subTest(setting):
                 said, text = demvof(self.case_file, self.out, "--continue", "--set", "coupling.end_time=0.006", "--set", setting)
                 self.assertEqual(said, 2, text)
                 self.assertIn(message, text)
+                if "refinement" in setting:
+                    self.assertIn("particles.script: ", text)
+                    self.assertIn("fluid.case: files have changed", text)
         mesh = self.out / "fluid/constant/polyMesh/points"
         points = mesh.read_bytes()
         mesh.write_bytes(points[:-40] + bytes([points[-40] ^ 1]) + points[-39:])

@@ -2,6 +2,7 @@
 #include "coupler/output/restart_point.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -126,6 +127,13 @@ TEST_F(RestartPoints, OneOfAnotherVersionSaysSo) {
     EXPECT_NE(std::string(error.what()).find("written by demvof 9.9"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("--continue --from 5"), std::string::npos);
   }
+}
+
+TEST_F(RestartPoints, APipeIsNoState) {
+  write(5);
+  fs::remove(run_ / "restart" / "latest.json");
+  ASSERT_EQ(mkfifo((run_ / "restart" / "latest.json").c_str(), 0600), 0);
+  EXPECT_THROW(read(), InputError);
 }
 
 TEST_F(RestartPoints, AFolderWithAHugeNumberIsNoState) {
