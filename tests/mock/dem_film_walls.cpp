@@ -56,8 +56,8 @@ TEST(DemFilmWalls, ComesBackFromAWallAsDavisAndBarnockySay) {
         const double cavitated = rebound(what, viscosity, {0.1, roughness, false}, speed);
         const double sucked = rebound(what, viscosity, {0.1, roughness, true}, speed);
         const double arrives = std::max(1 - critical / stokes, 0.0);
-        EXPECT_NEAR(cavitated, dry * arrives, 0.002) << what << " " << roughness << " " << stokes;
-        EXPECT_NEAR(sucked, std::max(dry * arrives - critical / stokes, 0.0), 0.002)
+        EXPECT_NEAR(cavitated, dry * arrives, 0.0013) << what << " " << roughness << " " << stokes;
+        EXPECT_NEAR(sucked, std::max(dry * arrives - critical / stokes, 0.0), 0.0013)
             << what << " " << roughness << " " << stokes;
       }
   }
