@@ -196,6 +196,7 @@ void carry_void_fraction(Flow& flow) {
   eps.primitiveFieldRef() = eps.oldTime().primitiveField() * volume_ratio(flow) -
                             flow.time.deltaTValue() * divergence().primitiveField();
   eps.correctBoundaryConditions();
+  renew_swept_fluid(flow);
 }
 
 /// Everything that follows from a new alpha.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "cyclicAMIPolyPatch.H"
 #include "foam_side/vectors.hpp"
 
 namespace demvof {
@@ -52,7 +53,7 @@ std::string walls_inside_bulk_cells(const Foam::fvMesh& mesh, const BulkGrid& gr
     parts[bulk[cell]][groups.of(cell)].volume += mesh.V()[cell];
   for (const Foam::polyPatch& patch : mesh.boundaryMesh())
     for (const label cell : patch.faceCells()) {
-      if (patch.coupled())
+      if (patch.coupled() || Foam::isA<Foam::cyclicAMIPolyPatch>(patch))
         parts[bulk[cell]].clear();  // goes on beyond the face
       else if (const auto part = parts[bulk[cell]].find(groups.of(cell)); part != parts[bulk[cell]].end())
         part->second.walled |= !Foam::isA<Foam::emptyPolyPatch>(patch);

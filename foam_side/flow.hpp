@@ -177,6 +177,9 @@ void settle_flux(Flow& flow);
 void move_under_particles(Flow& flow);
 /// Then, with porosity: what the particles prescribe at begin and end of the step for the moved cells, -.
 void move_porosity(Flow& flow, const scalarField& begin, const scalarField& end);
+/// With a new void fraction: what passes a wall that moves is nothing in the flux relative to it, and in the
+/// one in space what the wall sweeps.
+void renew_swept_fluid(Flow& flow);
 void update_porosity(Flow& flow);
 bool outer_corrector(Flow& flow);  // while true: the next four
 void advect_interface(Flow& flow);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "coupler/base/errors.hpp"
+#include "cyclicAMIPolyPatch.H"
 #include "foam_side/extras.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "movingWallVelocityFvPatchVectorField.H"
@@ -122,6 +123,16 @@ bool has_wall_with_velocity(const Flow& flow) {
 }  // namespace
 
 void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
+    if (!Foam::isA<Foam::cyclicAMIPolyPatch>(patch)) continue;
+    const auto& interface = Foam::refCast<const Foam::cyclicAMIPolyPatch>(patch);
+    if (interface.separated() || !interface.parallel())
+      throw InputError(
+          fmt::format("the fluid mesh's patch {} of type {} joins places that lie apart: particles cannot "
+                      "follow the fluid "
+                      "there. Join the ends of a period by patches of type cyclic",
+                      patch.name(), patch.type()));
+  }
   const AllEnds ends = find_ends(mesh);
   if (ends.cyclic_elsewhere > 0)
     throw InputError(

@@ -10,6 +10,7 @@
 // move_porosity.cpp.
 
 #include <algorithm>
+#include <cmath>
 
 #include "foam_side/extras.hpp"
 #include "wallFvPatch.H"
@@ -54,6 +55,7 @@ bool move_points(Flow& flow) {
 
 /// A wall that the mesh takes along without knowing of it would let fluid through.
 void require_walls_that_go_along(const Flow& flow) {
+  constexpr scalar nothing = 1e-8;  // of a face's size, in a step: round-off, where the motion turns back
   const surfaceScalarField& swept = flow.mesh.phi();
   scalar most = 0;
   for (const scalar flux : swept) most = std::max(most, std::abs(flux));
@@ -62,8 +64,12 @@ void require_walls_that_go_along(const Flow& flow) {
     const Foam::fvPatchVectorField& U = flow.U.boundaryField()[patch];
     if (!Foam::isA<Foam::wallFvPatch>(U.patch())) continue;
     scalar through = 0;
-    forAll(U, face) through =
-        std::max(through, std::abs((U[face] & U.patch().Sf()[face]) - swept.boundaryField()[patch][face]));
+    forAll(U, face) {
+      const scalar area = U.patch().magSf()[face];
+      const scalar passing = std::abs((U[face] & U.patch().Sf()[face]) - swept.boundaryField()[patch][face]);
+      if (passing * flow.time.deltaTValue() > nothing * std::sqrt(area) * area)
+        through = std::max(through, passing);
+    }
     if (Foam::returnReduce(through, Foam::maxOp<scalar>()) <= 1e-3 * most) continue;
     FatalErrorInFunction << "U: wall " << U.patch().name()
                          << " moves with the mesh (constant/dynamicMeshDict), "

@@ -26,8 +26,8 @@ void keep_volume_of_closed_box(const Flow& flow, scalarField& goal) {
   const double before = Foam::gSum(scalarField(flow.porosity->eps.oldTime() * volumes_before(flow)));
   const double after = Foam::gSum(scalarField(goal * volume)), all = Foam::gSum(volume);
   if (std::abs(after - before) > 1e-6 * all)  // as on a mesh at rest
-    FatalErrorInFunction << "the mesh that moves changes the volume of fluid by " << after - before
-                         << " m3 of " << before
+    FatalErrorInFunction << "the mesh that moves, or particles, change the volume of fluid by "
+                         << after - before << " m3 of " << before
                          << " in a box that no pressure boundary opens: give the case an opening"
                          << Foam::exit(Foam::FatalError);
   goal += (before - after) / all;
@@ -45,6 +45,12 @@ tmp<scalarField> prescribed_growth(const Flow& flow) {
   return (porosity.goal.field() - before / flow.mesh.V().field()) / flow.time.deltaTValue();
 }
 
+void renew_swept_fluid(Flow& flow) {
+  Porosity& porosity = *flow.porosity;
+  if (porosity.swept && flow.mesh.moving())
+    *porosity.swept = face_void_fraction(porosity.eps) * flow.mesh.phi();
+}
+
 void move_porosity(Flow& flow, const scalarField& begin, const scalarField& end) {
   Porosity& porosity = *flow.porosity;
   porosity.eps.oldTime();  // kept here, before anything of this step changes eps
@@ -56,7 +62,7 @@ void move_porosity(Flow& flow, const scalarField& begin, const scalarField& end)
   follow_solid(flow);
   flow.phi = flux_of(flow, flux_of_face_velocity(flow));
   porosity.swept = std::make_unique<surfaceScalarField>("sweptFluid", 0 * flow.phi);
-  if (flow.mesh.moving()) *porosity.swept = face_void_fraction(porosity.eps) * flow.mesh.phi();
+  renew_swept_fluid(flow);
   make_relative(flow, flow.phi);
   const tmp<scalarField> wanted = prescribed_growth(flow);
   const tmp<volScalarField> divergence = fvc::div(flow.phi);

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/transfer/remap.hpp"
+#include "cyclicAMIPolyPatch.H"
 #include "foam_side/fine_mesh.hpp"
 #include "syncTools.H"
 
@@ -66,6 +68,15 @@ class Connections {
   std::vector<Passages> passages_;
 };
 
+/// Of a face of a sliding interface, whose other side is at the same place, in cells that change.
+double bulk_cell_beyond(const Foam::fvMesh& mesh, const BulkGrid& grid, label face) {
+  constexpr double beyond = 1e-3;  // of the fine cell's size
+  const vector& area = mesh.faceAreas()[face];
+  const vector outwards =
+      area / (Foam::mag(area) + Foam::VSMALL) * std::cbrt(mesh.V()[mesh.faceOwner()[face]]);
+  return static_cast<double>(grid.id(grid.locate(to_vec3(mesh.faceCentres()[face] + beyond * outwards))));
+}
+
 CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid, const Remap& cut) {
   const std::vector<CellId>& touched = cut.cells().cells();
   Connections connections(grid, touched);
@@ -88,9 +99,14 @@ CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid,
   forAll(home, cell) home[cell] =
       static_cast<double>(grid.id(grid.locate(to_vec3(mesh.cellCentres()[cell]))));
   Foam::syncTools::swapBoundaryCellList(mesh, home, across);
-  for (const Foam::polyPatch& patch : mesh.boundaryMesh())
-    for (label face = patch.start(); patch.coupled() && face < patch.start() + patch.size(); ++face)
-      connect(bulk[mesh.faceOwner()[face]], {static_cast<CellId>(across[face - mesh.nInternalFaces()])});
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
+    const bool slides = Foam::isA<Foam::cyclicAMIPolyPatch>(patch);
+    const bool goes_on = slides || patch.coupled();
+    for (label face = patch.start(); goes_on && face < patch.start() + patch.size(); ++face) {
+      const double other = slides ? bulk_cell_beyond(mesh, grid, face) : across[face - mesh.nInternalFaces()];
+      connect(bulk[mesh.faceOwner()[face]], {static_cast<CellId>(other)});
+    }
+  }
 
   // Both cells of a face must hold fluid: volumes of all neighbours, by way of the owners.
   const CellValues<Passages> owned = cut.cells().sum_to_owners(connections.passages());

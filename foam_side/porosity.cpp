@@ -90,8 +90,8 @@ void set_initial_porosity(Flow& flow, const scalarField& eps) {
 void set_porosity_target(Flow& flow, const scalarField& eps) {
   Porosity& porosity = *flow.porosity;
   porosity.rate.field() = (eps - porosity.goal.field()) / (flow.clock.window_end - flow.time.value());
+  if (flow.scene.mesh_moves) return;  // each step fits its own (move_porosity.cpp)
   refuse_change_of_closed_volume(flow);
-  if (flow.scene.mesh_moves) return;  // each step fits its own
   if (follow_solid(flow))
     flow.phi = flow.velocity_flux ? flux_of(flow, *flow.velocity_flux)
                                   : flux_of(flow, flow.mesh.Sf() & *flow.face_velocity);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "coupler/link/run_stage.hpp"
+#include "foam_side/accelerating_walls.hpp"
 #include "foam_side/extras.hpp"
 
 namespace demvof {
@@ -76,6 +77,7 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
       follow_surface(flow, void_fraction_after_next_step(flow, bridge->particles_to_fine()));
     if (flow.pimple.frozenFlow()) continue;
     predict_momentum(flow);
+    if (moves && bridge) let_pressure_accelerate_walls(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
   end_step(flow);

@@ -4,6 +4,7 @@
 // Makes a ledger's entry (ledger.hpp) of what the two sides report about a window.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "coupler/exchange/ledger.hpp"
@@ -80,6 +81,7 @@ class Books {
                        norm(balance.left_over_to_particles - particles.left_over_given);
     }
     balance.particle_momentum = particles.momentum;
+    balance.moving = moving(particles);
     balance.external = particles.drag_impulse + particles.left_over_given + particles.pressure_impulse +
                        particles.stress_impulse + particles.constant_impulse + particles.contact_impulse +
                        particles.gravity_impulse - particles.held_impulse + (balance.pending - pending_);
@@ -118,7 +120,12 @@ class Books {
     outside.constant = particles.constant_impulse;
     outside.pressure_lag = particles.pressure_impulse - fluid.seen_pressure;
     owed_pressure_ = fluid.owed_pressure;
-    momentum_.close(fluid.momentum + particles.momentum + pending_ + owed_pressure_, outside, changed);
+    momentum_.close(fluid.momentum + particles.momentum + pending_ + owed_pressure_, outside, changed,
+                    moving(particles));
+  }
+  /// At least the sum of m |v|, whatever the directions: sqrt(2 E m), kg m/s.
+  static double moving(const ParticleReport& particles) {
+    return std::sqrt(2 * particles.kinetic_energy * particles.mass);
   }
   void enter(const FluidReport& fluid, WindowBalance balance) {
     balance.liquid_volume = fluid.liquid_volume;

@@ -38,10 +38,11 @@ struct WindowBalance {
   Vec3 pending;                                    // P at the end of the window
   double turnover = 0;  // sum over the bulk cells of impulses that may cancel in the sums above: the
                         // relative error is relative to this, too
-  Vec3 particle_momentum, fluid_momentum;             // m_s, m_f at the end of the window
-  Vec3 external;                                      // I of the window
-  double gross_impulse = 0;                           // largest of its parts, N s
-  bool particles_changed = false;                     // some came or went, with momentum of their own
+  Vec3 particle_momentum, fluid_momentum;  // m_s, m_f at the end of the window
+  Vec3 external;                           // I of the window
+  double gross_impulse = 0;                // largest of its parts, N s
+  double moving = 0;                       // of the particles, whose momenta may cancel in m_s, kg m/s
+  bool particles_changed = false;          // some came or went, with momentum of their own
   double bulk_solid_volume = 0, particle_volume = 0;  // at the end of the window, m3
   std::optional<double> fine_solid_error;  // on the fine mesh, where it is put there, less what should be, m3
   double liquid_volume = 0;                // at the end of the window, m3
@@ -51,8 +52,9 @@ struct WindowBalance {
 /// Relative errors, -.
 struct ConservationErrors {
   double exchange = 0;  // |sum| / (largest of |J|, |L|, |F_e + F_i|, |P_n|, |P_n+1|, turnover)
-  double momentum = 0;  // |drift from the start| / (largest |m_s| + |m_f|, or |sum of I|, up to now, or sum
-                        // of the largest parts of I: a bed at rest is judged by its weight)
+  double momentum = 0;  // |drift from the start| / (largest |m_s| + |m_f|, sqrt(2 E m) of the particles, or
+                        // |sum of I|, up to now, or sum of the largest parts of I: a bed at rest is judged by
+                        // its weight, one that turns about its middle by its motion)
   double solid_volume = 0;   // larger of |bulk - particles|, |fine - particles| / particles
   double liquid_volume = 0;  // |drift from the start| / (start + sum of what came in)
 };
@@ -83,7 +85,7 @@ class Ledger {
         window.particle_momentum + window.fluid_momentum + pending_ - external_ - start_momentum_;
     gross_impulse_ += window.gross_impulse;
     momentum_scale_ = std::max({momentum_scale_, norm(window.particle_momentum) + norm(window.fluid_momentum),
-                                norm(external_), gross_impulse_});
+                                norm(external_), gross_impulse_, window.moving});
     if (window.particles_changed)
       start_momentum_ += drift;  // what they brought or took
     else

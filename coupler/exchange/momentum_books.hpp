@@ -7,7 +7,7 @@
 //
 // I are the impulses from outside, each of them measured where it acts (docs/theory.md, The books). The error
 // is relative to the largest of them and of the momentum, whatever its direction: a bed at rest is judged by
-// its weight.
+// its weight, one that turns about its middle by its motion.
 
 #include <algorithm>
 #include <array>
@@ -66,11 +66,12 @@ class MomentumBooks {
   /// total: m_f + m_s + P at the start.
   explicit MomentumBooks(const Vec3& total) : start_(total) {}
 
-  /// Enters a window. changed: particles came or went with momentum of their own: it is not judged.
-  void close(const Vec3& total, const OutsideImpulses& impulses, bool changed) {
+  /// Enters a window. changed: particles came or went with momentum of their own: it is not judged. moving:
+  /// size of the particles' momenta, which may cancel in the total, kg m/s.
+  void close(const Vec3& total, const OutsideImpulses& impulses, bool changed, double moving = 0) {
     impulses_ += impulses;
     const Vec3 drift = total - impulses_.sum() - start_;
-    scale_ = std::max(scale_, norm(total));
+    scale_ = std::max({scale_, norm(total), moving});
     for (const auto& [name, part] : OutsideImpulses::parts) scale_ = std::max(scale_, norm(impulses_.*part));
     ++windows_;
     if (changed) {

@@ -26,6 +26,7 @@ OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
                "^unit_output_due$": ["unit_output_due"]}
 MOVING = {"^pair.moving_mesh$": PAIR}
+TURNING = {"^pair.turning$": PAIR}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}
 SHAKEN, ROWS = {"^pair.shaken$": PAIR}, {"^unit_gravity_table$": ["unit_gravity_table"]}
@@ -255,6 +256,12 @@ FAULTS = [
     # ---- what the pressure corrections leave open
     ("foam_side/open_momentum.cpp", "constexpr double of_returned = 0.5,", "constexpr double of_returned = 1e9,", STREWN),
     # ---- meshes that move
+    ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
+    ("foam_side/accelerating_walls.cpp", "((U.oldTime().boundaryField()[patch] - wall) &", "(0 * wall &", MOVING),
+    ("foam_side/move_mesh.cpp", "passing * flow.time.deltaTValue() > nothing *", "passing * flow.time.deltaTValue() > 0 *", MOVING),
+    ("foam_side/advect_interface.cpp", "  renew_swept_fluid(flow);", "", TURNING),
+    ("foam_side/openings_to_bulk.cpp", "slides ? bulk_cell_beyond(mesh, grid, face) :", "", TURNING),
+    ("coupler/exchange/books.hpp", "    balance.moving = moving(particles);", "", TURNING),
     ("foam_side/move_porosity.cpp", "face_void_fraction(porosity.eps) * flow.mesh.phi()", "flow.mesh.phi()", MOVING),
     ("foam_side/move_porosity.cpp", "flow.mesh.moving() ? flow.mesh.V0().field()", "!flow.mesh.moving() ? flow.mesh.V0().field()",
      MOVING),
