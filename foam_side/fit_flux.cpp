@@ -3,7 +3,7 @@
 //
 //   phi - M grad(psi).S,   div(M grad psi) = div(phi) + rate
 //
-// M: mobility of the faces, flux per pressure gradient; psi serves once and is forgotten.
+// M: mobility of the faces, flux per pressure gradient.
 
 #include "foam_side/flow.hpp"
 
@@ -41,15 +41,17 @@ void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField*
   fit_flux(flow, flow.phi, mobility, wanted_rate, flux_solver(flow, wanted_rate == nullptr));
 }
 
-void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate, const Foam::dictionary& solver) {
+tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+                             const scalarField* wanted_rate, const Foam::dictionary& solver) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
   forAll(types, patch) {
     if (flow.p_rgh.boundaryField()[patch].fixesValue())
       types[patch] = Foam::fixedValueFvPatchScalarField::typeName;
   }
-  volScalarField potential(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
-                           dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
+  tmp<volScalarField> found =
+      tmp<volScalarField>::New(Foam::IOobject("pcorr", flow.time.timeName(), flow.mesh), flow.mesh,
+                               dimensionedScalar(flow.p_rgh.dimensions(), Foam::Zero), types);
+  volScalarField& potential = found.ref();
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) {  // what the walls displace where they move is not to be made up for
     if (!flow.porosity) make_relative(flow, flux);
@@ -64,6 +66,7 @@ void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mo
     equation.solve(solver);
     if (flow.pimple.finalNonOrthogonalIter()) flux -= equation.flux();
   }
+  return found;
 }
 
 }  // namespace demvof

@@ -18,9 +18,9 @@
 #include <memory>
 
 #include "coupler/scene/scene.hpp"
-#include "foam_side/face_drag.hpp"
 #include "foam_side/ghost_liquid.hpp"
 #include "foam_side/openfoam.hpp"
+#include "foam_side/pressure_system.hpp"
 #include "foam_side/reconstruct.hpp"
 #include "foam_side/refinement.hpp"
 #include "foam_side/run_time.hpp"
@@ -69,19 +69,6 @@ struct Clock {
   double interface_courant = 0;  // the same in cells with 0.01 < alpha < 0.99
   double largest_courant = 0;    // over the run
   long steps = 0;
-};
-
-/// What one momentum prediction leaves for its pressure corrections.
-struct PressureSystem {
-  std::unique_ptr<Foam::fvVectorMatrix> momentum;    // inertia and stress; no particle force
-  std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
-  std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
-  std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
-  std::unique_ptr<FaceDrag> face_drag;               // only with particles
-  std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
-  bool viscous = false;         // nu dt/dx2 > 1: few pressure corrections leave much open
-  double returned = 0;          // of what the step before left open (open_momentum.hpp), N s
-  int further_corrections = 0;  // beyond those of the case
 };
 
 /// The fluid. Built by open_flow; members stand in the order in which they depend on each other.
@@ -210,9 +197,9 @@ dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField&
 /// pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
-/// The same for any flux of volume.
-void fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
-              const scalarField* wanted_rate, const Foam::dictionary& solver);
+/// The same for any flux of volume. Returns the potential.
+tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
+                             const scalarField* wanted_rate, const Foam::dictionary& solver);
 
 /// A flux of which this is left to fit (1/s, per cell): fitted as well as fvSolution asks for with respect to
 /// the whole rate of the void fraction.

@@ -58,30 +58,18 @@ bool joins_ends(const Foam::fvPatch& patch) {
 }
 
 void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
-  const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
-  const Foam::fvVectorMatrix& momentum = *flow.pressure_system.momentum;
   const tmp<surfaceScalarField> rho_f = fvc::interpolate(flow.rho);
-  vector pressure = vector::zero, shear = vector::zero, through = vector::zero;
+  vector pressure = vector::zero;
   forAll(flow.mesh.boundary(), patch) {
     const Foam::vectorField& S = flow.mesh.Sf().boundaryField()[patch];
     if (joins_ends(flow.mesh.boundary()[patch]))
       pressure -= Foam::sum(flow.ghf.boundaryField()[patch] * rho_f().boundaryField()[patch] * S);
     if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
-    const scalarField& area = flow.mesh.magSf().boundaryField()[patch];
-    const Foam::vectorField slope(flow.U.boundaryField()[patch].snGrad());
-    through += Foam::sum(momentum.boundaryCoeffs()[patch] -
-                         Foam::cmptMultiply(momentum.internalCoeffs()[patch],
-                                            flow.U.boundaryField()[patch].patchInternalField()()));
-    forAll(S, face) {
-      const scalar eps = flow.porosity ? flow.porosity->eps.boundaryField()[patch][face] : 1.0;
-      const scalar mu = flow.rho.boundaryField()[patch][face] * viscosity().boundaryField()[patch][face];
-      pressure -= flow.p.boundaryField()[patch][face] * S[face];
-      shear += eps * mu * area[face] * slope[face];
-    }
+    pressure -= Foam::sum(flow.p.boundaryField()[patch] * S);
   }
   books.boundary_pressure += dt * to_vec3(pressure);
-  books.boundary_shear += dt * (to_vec3(shear) + books.explicit_stress);
-  books.carried_in += dt * to_vec3(through - shear);
+  books.boundary_shear += dt * (books.step_shear + books.explicit_stress);
+  books.carried_in += dt * books.step_carried;
 }
 
 void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
@@ -121,6 +109,24 @@ void note_explicit_stress(Flow& flow, const volScalarField& density) {
     force += Foam::sum(flow.mesh.Sf().boundaryField()[patch] & stress);
   }
   books_of(flow).explicit_stress = to_vec3(force);
+}
+
+void note_boundary_stress(Flow& flow) {
+  const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
+  const Foam::fvVectorMatrix& momentum = *flow.pressure_system.momentum;
+  vector shear = vector::zero, through = vector::zero;
+  forAll(flow.mesh.boundary(), patch) {
+    if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
+    const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
+    const scalarField mu(flow.rho.boundaryField()[patch] * viscosity().boundaryField()[patch]);
+    Foam::vectorField stress(mu * flow.mesh.magSf().boundaryField()[patch] * at.snGrad());
+    if (flow.porosity) stress *= flow.porosity->eps.boundaryField()[patch];
+    shear += Foam::sum(stress);
+    through += Foam::sum(momentum.boundaryCoeffs()[patch] -
+                         Foam::cmptMultiply(momentum.internalCoeffs()[patch], at.patchInternalField()()));
+  }
+  books_of(flow).step_shear = to_vec3(shear);
+  books_of(flow).step_carried = to_vec3(through - shear);
 }
 
 void keep_books(Flow& flow) {

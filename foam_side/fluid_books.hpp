@@ -14,6 +14,8 @@ struct FluidBooks {
   double liquid_inflow = 0;  // through the boundary in the present step, m3/s
   double liquid_in = 0;      // m3
   Vec3 explicit_stress;      // mu (grad u)^T at the boundary, as the present step's equation has it, N
+  Vec3 step_shear;           // at the boundary in the present step, without explicit_stress, N
+  Vec3 step_carried;         // what else the present step's equation has there, N
   Vec3 weight;               // N s, as the rest
   Vec3 boundary_pressure;    // total pressure: on the fluid, and through it on the particles
   Vec3 boundary_shear;       // viscous
@@ -26,6 +28,9 @@ void note_liquid_flux(Flow& flow, const surfaceScalarField& flux);
 
 /// Notes the part of the stress in the momentum equation of this step that does not wait for its velocity.
 void note_explicit_stress(Flow& flow, const volScalarField& density);
+
+/// Notes what the step's momentum equation has at the boundary with the present velocity.
+void note_boundary_stress(Flow& flow);
 
 /// Enters the step that has just been done.
 void keep_books(Flow& flow);

@@ -22,21 +22,4 @@ Foam::vectorField& open_momentum(Flow& flow) {
   return flow.mesh.lookupObjectRef<Kept>(open_name).field();
 }
 
-double size_of_open_momentum(const Flow& flow) {
-  const Foam::vectorField* open = find_open_momentum(flow);
-  double size = 0;
-  if (open) forAll(*open, cell) size += flow.mesh.V()[cell] * Foam::mag((*open)[cell]);
-  return Foam::returnReduce(size, Foam::sumOp<double>());
-}
-
-bool leaves_too_much_open(const Flow& flow) {
-  constexpr double of_returned = 0.5, of_change = 0.01;
-  const double open = size_of_open_momentum(flow);
-  if (open <= of_returned * flow.pressure_system.returned) return false;
-  double change = 0;  // of the fluid's momentum in the step
-  const Foam::vectorField &U = flow.U.primitiveField(), &before = flow.U.oldTime().primitiveField();
-  forAll(U, cell) change += flow.mesh.V()[cell] * flow.rho[cell] * Foam::mag(U[cell] - before[cell]);
-  return open > of_change * Foam::returnReduce(change, Foam::sumOp<double>());
-}
-
 }  // namespace demvof

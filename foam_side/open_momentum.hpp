@@ -12,14 +12,10 @@ namespace demvof {
 ///
 /// and H of the new velocity is not what the cells have exchanged among each other: summed over all of them
 /// dt (H(u) - H(u_before)) is momentum made from nothing. It belongs to the fluid (fluid_momentum) and is
-/// returned as a force in the next step. Where viscosity carries momentum over several cells in a step
-/// (PressureSystem::viscous) more comes of that than was returned, unless there are enough corrections: they
-/// go on until it is at most half as much. With particles. A registered field, so that a mesh change maps it.
+/// returned as a force in the next step. Where viscosity carries momentum over several cells in a step, more
+/// would come of that than was returned: there nothing is left open (keep_stress.cpp). With particles. A
+/// registered field, so that a mesh change maps it.
 Foam::vectorField& open_momentum(Flow& flow);
-/// Is more left open than may be? Collective.
-bool leaves_too_much_open(const Flow& flow);
-/// Sum over the cells of its size, N s. Collective.
-double size_of_open_momentum(const Flow& flow);
 /// nullptr before the first step, and without particles.
 const Foam::vectorField* find_open_momentum(const Flow& flow);
 

@@ -11,14 +11,15 @@
 // meets the pressure at the faces (face_drag.hpp).
 // Without the predictor the pressure corrections alone have to spread the momentum that viscosity carries
 // from cell to cell, which they do not once nu dt/dx2 is above 1: then the predictor is on whatever PIMPLE
-// says. eps rho u.S is rho_phi of the alpha step: mass and momentum are carried alike.
+// says, and with particles from 1/4 on project_velocity.cpp takes over. eps rho u.S is rho_phi of the alpha
+// step: mass and momentum are carried alike.
 
 #include "coupler/closures/suspension_viscosity.hpp"
-#include "foam_side/cell_field.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
+#include "foam_side/pressure_gradient.hpp"
 
 namespace demvof {
 namespace {
@@ -80,27 +81,6 @@ void constrain(Flow& flow, Foam::fvVectorMatrix& momentum) {
   extras(flow).sources.constrain(answering);
 }
 
-/// The predictor: all forces, those of the particles implicit in U. Not by fvc::reconstruct, whose result
-/// shares the memory of its operand behind restrict pointers: compilers then form z from a y that is already
-/// the result's.
-void solve_momentum(Flow& flow, const Foam::fvVectorMatrix& momentum) {
-  const surfaceScalarField at_faces(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
-  volVectorField::Internal force(Foam::IOobject("force", flow.time.timeName(), flow.mesh), flow.mesh,
-                                 Foam::dimForce / Foam::dimVolume,
-                                 (*flow.reconstruct)([&](const auto& at, label) { return at(at_faces); }));
-  if (flow.porosity) force.field() *= flow.porosity->eps.primitiveField();
-  Foam::fvVectorMatrix equation(momentum == force);
-  if (flow.source) {
-    const ParticleSource& source = *flow.source;
-    const scalarField& volume = flow.mesh.V().field();
-    equation.diag() += volume * source.coefficient.field();
-    equation.source() +=
-        volume * (source.force.field() + source.coefficient.field() * source.reference.field());
-  }
-  equation.solve();
-  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
-}
-
 /// Part of the face velocity of the last step that its cell velocities do not know of, m3/s:
 /// (eps rho/A)_f c (u_f - mean(u)).S/dt of the old time, with the weight c of OpenFOAM's ddt scheme. In a
 /// zone that rotates there is none.
@@ -152,54 +132,62 @@ double viscous_number(const Flow& flow) {
   return Foam::returnReduce(largest, Foam::maxOp<double>()) * flow.time.deltaTValue();
 }
 
+/// Whether to solve the equation before the pressure corrections.
 bool predicts(Flow& flow) {
-  if (flow.pimple.momentumPredictor() && !flow.source) return true;
+  // Three corrections would leave a fifth of the stress open.
+  constexpr double most_of_corrections = 0.25;
+  if (!flow.source && flow.pimple.momentumPredictor()) return true;
   const double number = viscous_number(flow);
-  flow.pressure_system.viscous = number > 1;
-  if (flow.pimple.momentumPredictor()) return true;
+  flow.pressure_system.viscous = flow.source && number > most_of_corrections;
   static bool said = false;
-  if (number > 1 && !said) {
-    Foam::Info << "Momentum predictor switched on where nu dt/dx2 > 1 (here " << number
-               << "): without it the pressure corrections do not converge" << Foam::endl;
+  if (!said && (flow.pressure_system.viscous || (number > 1 && !flow.pimple.momentumPredictor()))) {
+    Foam::Info << (flow.source ? "Momentum solved in each pressure correction where nu dt/dx2 > 0.25"
+                               : "Momentum predictor switched on where nu dt/dx2 > 1")
+               << " (here " << number << "): without that they do not converge" << Foam::endl;
     said = true;
   }
-  return number > 1;
+  if (flow.pressure_system.viscous) return false;  // each correction does
+  return flow.pimple.momentumPredictor() || number > 1;
 }
 
 }  // namespace
+
+// Not by fvc::reconstruct, whose result
+// shares the memory of its operand behind restrict pointers: compilers then form z from a y that is already
+// the result's.
+void solve_momentum(Flow& flow) {
+  const surfaceScalarField at_faces(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
+  volVectorField::Internal force(Foam::IOobject("force", flow.time.timeName(), flow.mesh), flow.mesh,
+                                 Foam::dimForce / Foam::dimVolume,
+                                 (*flow.reconstruct)([&](const auto& at, label) { return at(at_faces); }));
+  if (flow.pressure_system.viscous) force.field() -= gradient_at_kinks(flow);
+  if (flow.porosity) force.field() *= flow.porosity->eps.primitiveField();
+  Foam::fvVectorMatrix equation(*flow.pressure_system.momentum == force);
+  if (flow.source) {
+    const ParticleSource& source = *flow.source;
+    const scalarField& volume = flow.mesh.V().field();
+    equation.diag() += volume * source.coefficient.field();
+    equation.source() +=
+        volume * (source.force.field() + source.coefficient.field() * source.reference.field());
+  }
+  equation.solve();
+  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
+}
 
 void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
-  if (flow.source) {
+  if (flow.source)
     system.momentum->source() += flow.mesh.V().field() * open_momentum(flow) / flow.time.deltaTValue();
-    system.returned = size_of_open_momentum(flow);
-  }
-  system.further_corrections = 0;
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   constrain(flow, *system.momentum);
-  if (predicts(flow)) solve_momentum(flow, *system.momentum);
+  if (predicts(flow)) solve_momentum(flow);
 
-  const volScalarField A(system.momentum->A());
-  system.inverse_diagonal.reset();  // first: OpenFOAM maps the field that has the name
-  system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / A);
-  tmp<volScalarField> response(*system.inverse_diagonal);
-  if (flow.porosity)
-    response = with_boundary("eps", flow.mesh, Foam::dimless, flow.porosity->eps.primitiveField()) *
-               *system.inverse_diagonal;  // at its ends, too, that of the cell
-  system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
+  const tmp<volScalarField> response = set_response(flow, system.momentum->A());
   system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));
   if (lag.valid()) *system.memory += lag;
-  if (flow.source) {
-    system.face_drag = std::make_unique<FaceDrag>(flow, A);
-    const FaceDrag& drag = *system.face_drag;
-    system.mobility =
-        std::make_unique<surfaceScalarField>("rAUf", *system.response / (1.0 / drag.eps_f + drag.resistance));
-  } else {
-    system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
-  }
 }
 
 }  // namespace demvof

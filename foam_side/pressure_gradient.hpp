@@ -12,4 +12,9 @@ Foam::vectorField& own_gradient(Flow& flow);
 /// nullptr before the first correction, and without particles.
 const Foam::vectorField* find_own_gradient(const Flow& flow);
 
+/// What G has beyond the gradient across the faces, where void fraction or drag jump, Pa/m: for the next
+/// prediction. Only where nu dt/dx2 > 1.
+Foam::vectorField& gradient_at_kinks(Flow& flow);
+const Foam::vectorField* find_gradient_at_kinks(const Flow& flow);
+
 }  // namespace demvof

@@ -113,6 +113,8 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
     state["velocity_before"] = components(flow.U.oldTime().primitiveField());
   }
   if (const Foam::vectorField* own = find_own_gradient(flow)) state["own_gradient"] = components(*own);
+  if (const Foam::vectorField* kinks = find_gradient_at_kinks(flow))
+    state["gradient_at_kinks"] = components(*kinks);
   if (const Foam::vectorField* open = find_open_momentum(flow)) state["open_momentum"] = components(*open);
   if (const Foam::vectorField* mean = find_mean_gradient(flow)) state["mean_gradient"] = components(*mean);
   if (const Foam::vectorField* mean = find_mean_acceleration(flow))
@@ -136,6 +138,8 @@ void go_on(Flow& flow, const json& state) {
   }
   if (flow.ghost) add_ghost_density(flow);
   if (state.contains("own_gradient")) read_components(state, "own_gradient", own_gradient(flow));
+  if (state.contains("gradient_at_kinks"))
+    read_components(state, "gradient_at_kinks", gradient_at_kinks(flow));
   if (state.contains("open_momentum")) read_components(state, "open_momentum", open_momentum(flow));
   if (state.contains("mean_gradient")) read_components(state, "mean_gradient", mean_gradient(flow));
   if (state.contains("mean_acceleration"))

@@ -18,6 +18,7 @@ PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
+THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 HALF = {"^pair.half_submerged$": PAIR}
 FILMS = {r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
@@ -254,7 +255,10 @@ FAULTS = [
     ("dem_side/forces.cpp", "constant + (weight - weight_of_script);", "constant;", SHAKEN),
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
     # ---- what the pressure corrections leave open
-    ("foam_side/open_momentum.cpp", "constexpr double of_returned = 0.5,", "constexpr double of_returned = 1e9,", STREWN),
+    ("foam_side/project_velocity.cpp", "open_momentum(flow) = -flow", "open_momentum(flow) = flow", THICK),
+    ("foam_side/project_velocity.cpp", "if (!last) flow.p_rgh", "if (last) flow.p_rgh", THICK),
+    ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", THICK),
+    ("foam_side/predict_momentum.cpp", "flow.source && number > most_of_corrections;", "false;", THICK),
     # ---- meshes that move
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/accelerating_walls.cpp", "(U.oldTime().boundaryField()[patch] - wall)", "(wall - wall)", MOVING),

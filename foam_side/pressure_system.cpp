@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam_side/pressure_system.hpp"
+
+#include "foam_side/cell_field.hpp"
+#include "foam_side/extras.hpp"
+#include "foam_side/flow.hpp"
+#include "inletOutletFvPatchFields.H"
+#include "transformFvPatchFields.H"
+
+namespace demvof {
+
+tmp<volScalarField> set_response(Flow& flow, const volScalarField& A) {
+  PressureSystem& system = flow.pressure_system;
+  system.inverse_diagonal.reset();  // first: OpenFOAM maps the field that has the name
+  system.inverse_diagonal = std::make_unique<volScalarField>("rAU", 1.0 / A);
+  tmp<volScalarField> response(*system.inverse_diagonal);
+  if (flow.porosity)
+    response = with_boundary("eps", flow.mesh, Foam::dimless, flow.porosity->eps.primitiveField()) *
+               *system.inverse_diagonal;  // at its ends, too, that of the cell
+  system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
+  if (flow.source) {
+    system.face_drag = std::make_unique<FaceDrag>(flow, A);
+    const FaceDrag& drag = *system.face_drag;
+    system.mobility =
+        std::make_unique<surfaceScalarField>("rAUf", *system.response / (1.0 / drag.eps_f + drag.resistance));
+  } else {
+    system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
+  }
+  return response;
+}
+
+tmp<volVectorField> neighbours_velocity(const Flow& flow) {
+  const PressureSystem& system = flow.pressure_system;
+  return Foam::constrainHbyA(*system.inverse_diagonal * system.momentum->H(), flow.U, flow.p_rgh);
+}
+
+tmp<surfaceScalarField> transported_flux(const Flow& flow, const volVectorField& h) {
+  tmp<surfaceScalarField> transported = fvc::flux(h) + *flow.pressure_system.memory;
+  extras(flow).rotating.makeRelative(transported.ref());
+  if (flow.porosity) transported.ref() -= flow.porosity->along;
+  return transported;
+}
+
+tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
+  if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
+  const FaceDrag& c = *flow.pressure_system.face_drag;
+  tmp<surfaceScalarField> flux = tmp<surfaceScalarField>::New(
+      "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
+  if (flow.porosity) flux.ref() += flow.porosity->carried;
+  return flux;
+}
+
+Foam::vectorField own_push(const Flow& flow, const surfaceScalarField& transported,
+                           const surfaceScalarField& flux) {
+  const FaceDrag& c = *flow.pressure_system.face_drag;
+  const scalarField& rAU = flow.pressure_system.inverse_diagonal->primitiveField();
+  const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
+  const tmp<surfaceScalarField> past =  // w
+      flow.porosity ? flux - flow.porosity->carried : tmp<surfaceScalarField>(flux);
+  return (*flow.reconstruct)([&](const auto& at, label cell) {
+    const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell], w = at(past());
+    const scalar pressure =
+        (w - at(c.eps_f) * at(transported) + at(c.share) * k * (w - at(c.reference))) / e - at(c.push);
+    return at(c.push) + e * rAU[cell] / at(*flow.pressure_system.response) * pressure;
+  });
+}
+
+tmp<scalarField> rate_to_serve(const Flow& flow) {
+  if (flow.porosity->swept)
+    return prescribed_growth(flow) - fvc::div(*flow.porosity->swept)().primitiveField();
+  if (flow.pimple.finalIter()) return wanted_porosity_rate(flow);
+  const Porosity& porosity = *flow.porosity;
+  return (porosity.goal.field() - porosity.eps.oldTime().primitiveField()) / flow.time.deltaTValue();
+}
+
+void balance_boundary(Flow& flow, surfaceScalarField& flux) {
+  surfaceScalarField through("balanced", flux);
+  const auto given = [&flow](label patch) {
+    const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
+    if (at.coupled()) return false;
+    if (Foam::isA<Foam::transformFvPatchVectorField>(at)) return true;  // slip, symmetry: nothing passes
+    return at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
+  };
+  forAll(flow.mesh.boundary(), patch) {
+    if (!given(patch)) continue;
+    Foam::fvsPatchScalarField& at = through.boundaryFieldRef()[patch];
+    at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
+    if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
+  }
+  make_relative(flow, through);
+  Foam::adjustPhi(through, flow.U, flow.p_rgh);
+  make_absolute(flow, through);
+  forAll(flow.mesh.boundary(), patch) if (!given(patch))
+          flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
+}
+
+void update_face_velocity(Flow& flow) {
+  // phi is still that in space.
+  if (flow.velocity_flux) *flow.velocity_flux = velocity_flux_of(flow, flow.phi);
+  if (!flow.face_velocity) return;
+  const surfaceVectorField normal(flow.mesh.Sf() / flow.mesh.magSf());
+  surfaceVectorField& face_velocity = *flow.face_velocity;
+  face_velocity = fvc::interpolate(flow.U);
+  const tmp<surfaceScalarField> speed =
+      (flow.porosity ? velocity_flux_of(flow, flow.phi) : tmp<surfaceScalarField>(flow.phi)) /
+      flow.mesh.magSf();
+  face_velocity += normal * (speed - (normal & face_velocity));
+}
+
+}  // namespace demvof

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Thick liquids, nu dt/dx2 > 1/4: how momentum and pressure share a correction.
+//
+// In thinner ones (correct_pressure.cpp) the corrections take the neighbours' part H of the stress from the
+// velocity before them. Where viscosity carries momentum across many cells in a step they do not converge,
+// and what they leave open has no bound. Here each correction solves the momentum equation, stress and drag
+// implicit, with the pressure p* of before,
+//
+//   M u* = F + C (u_ref - u*) - eps grad p*
+//
+// makes its flux continuous by a potential, which the inertia A_0 = eps rho/dt and the drag alone resist,
+//
+//   w = w* - m grad(psi).S,   1/m = mean((A_0 + C)/eps2)
+//
+// and gives the cells what it gave the faces: u = u* + (w - w*)/(eps |S|), reconstructed. The stress stays
+// that of u*, fluxes that add up to zero; open is what the solver of u* leaves. It is the incremental
+// projection (Goda, J. Comput. Phys. 30 (1979) 76), stable for any nu dt/dx2. Where another correction
+// follows, the pressure also takes what the stress needs,
+//
+//   p = p* + psi - (mu/eps) (div(phi*) + d(eps)/dt),   mu: where it jumps, that of the thinner side
+//
+// without which pressure travels by a cell or so per step (Timmermans et al., Int. J. Numer. Methods Fluids
+// 22 (1996) 673). Each side of a face has its own share of psi, -(A_0 + C)/eps2 (w - w*), and of p* what
+// face_drag.hpp says.
+
+#include <algorithm>
+
+#include "foam_side/cell_field.hpp"
+#include "foam_side/extras.hpp"
+#include "foam_side/flow.hpp"
+#include "foam_side/fluid_books.hpp"
+#include "foam_side/open_momentum.hpp"
+#include "foam_side/pressure_gradient.hpp"
+
+namespace demvof {
+namespace {
+
+/// (face_force - grad p_rgh.S), N/m.
+tmp<surfaceScalarField> push_of_pressure(const Flow& flow) {
+  return flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf();
+}
+
+Foam::vectorField reconstructed(const Flow& flow, const surfaceScalarField& at_faces) {
+  return (*flow.reconstruct)([&](const auto& at, label) { return at(at_faces); });
+}
+
+tmp<scalarField> void_fraction(const Flow& flow) {
+  if (flow.porosity) return flow.porosity->eps.primitiveField();
+  return tmp<scalarField>::New(flow.mesh.nCells(), 1.0);
+}
+
+/// Flux of u* and p*, m3/s; brings the pressure's gradient at walls to what keeps them closed, and notes what
+/// the pressure's gradient has at kinks.
+surfaceScalarField predicted_flux(Flow& flow) {
+  const PressureSystem& system = flow.pressure_system;
+  const surfaceScalarField& mobility = *system.mobility;
+  const surfaceScalarField transported(transported_flux(flow, neighbours_velocity(flow)));
+  surfaceScalarField flux(unforced_flux(flow, transported));
+  if (flow.p_rgh.needReference()) balance_boundary(flow, flux);
+  flux += mobility * flow.face_force();
+  if (flow.porosity)
+    Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, flux, mobility);
+  else
+    Foam::constrainPressure(flow.p_rgh, flow.U, flux, mobility, extras(flow).rotating);
+  flux -= mobility * fvc::snGrad(flow.p_rgh) * flow.mesh.magSf();
+  const Foam::vectorField push = own_push(flow, transported, flux);
+  const scalarField& rAU = system.inverse_diagonal->primitiveField();
+  gradient_at_kinks(flow) = (flow.source->force.field() - push / rAU) / void_fraction(flow) +
+                            reconstructed(flow, push_of_pressure(flow));
+  return flux;
+}
+
+/// Least dynamic viscosity of a cell and its neighbours, Pa s: with its own, a liquid that meets a gas would
+/// push the gas as if that were as thick.
+scalarField viscosity_of_thinner_side(const Flow& flow) {
+  const tmp<scalarField> mu = dynamic_viscosity(flow);
+  scalarField least(mu());
+  forAll(flow.mesh.owner(), face) {
+    const label owner = flow.mesh.owner()[face], neighbour = flow.mesh.neighbour()[face];
+    least[owner] = std::min(least[owner], mu()[neighbour]);
+    least[neighbour] = std::min(least[neighbour], mu()[owner]);
+  }
+  const volScalarField across(with_boundary("mu", flow.mesh, Foam::dimDynamicViscosity, mu()));
+  for (const Foam::fvPatchScalarField& at : across.boundaryField()) {
+    if (!at.coupled()) continue;
+    const scalarField beyond(at.patchNeighbourField());
+    forAll(beyond, face) {
+      scalar& here = least[at.patch().faceCells()[face]];
+      here = std::min(here, beyond[face]);
+    }
+  }
+  return least;
+}
+
+/// Of the equation that u* solves, N/m3. pressure: G of p*.
+Foam::vectorField residual(const Flow& flow, const Foam::vectorField& pressure) {
+  const ParticleSource& source = *flow.source;
+  const Foam::vectorField& U = flow.U.primitiveField();
+  return (*flow.pressure_system.momentum & flow.U)().primitiveField() - source.force.field() -
+         source.coefficient.field() * (source.reference.field() - U) + void_fraction(flow) * pressure;
+}
+
+}  // namespace
+
+void project_velocity(Flow& flow) {
+  const PressureSystem& system = flow.pressure_system;
+  const bool last = flow.pimple.corrPISO() == flow.pimple.nCorrPISO();
+  const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
+  solve_momentum(flow);
+  if (flow.pimple.finalIter()) note_boundary_stress(flow);
+  const Foam::vectorField left(residual(flow, before));
+
+  const scalarField eps(void_fraction(flow));
+  const scalarField inertia(eps * flow.rho.primitiveField() / flow.time.deltaTValue() +
+                            flow.source->coefficient.field());  // A_0 + C
+  const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
+                                                scalarField(inertia / Foam::sqr(eps))));
+  const surfaceScalarField mobility(1.0 / fvc::interpolate(resistance));
+  const surfaceScalarField predicted(predicted_flux(flow));
+  flow.phi = predicted;
+  scalarField rate(flow.mesh.nCells(), 0.0);
+  if (flow.porosity) rate = rate_to_serve(flow);
+  const scalarField excess(fvc::div(predicted)().primitiveField() + rate);
+  const tmp<volScalarField> potential = fit_flux(
+      flow, flow.phi, mobility, &rate, flow.mesh.solver(flow.p_rgh.select(last && flow.pimple.finalIter())));
+
+  const Foam::vectorField push = reconstructed(flow, flow.phi - predicted);
+  flow.U.primitiveFieldRef() += push / eps;
+  flow.U.correctBoundaryConditions();
+  own_gradient(flow) = before - inertia / Foam::sqr(eps) * push;
+  flow.p_rgh += potential();
+  if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
+  flow.p_rgh.correctBoundaryConditions();
+  update_face_velocity(flow);
+  make_relative(flow, flow.phi);
+  open_momentum(flow) = -flow.time.deltaTValue() * left;
+}
+
+}  // namespace demvof

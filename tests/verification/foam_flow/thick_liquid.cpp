@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Liquids so thick that viscosity carries momentum across many cells in a step, nu dt/dx2 up to 1e6, with
+// particles' forces on them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "foam_case.hpp"
+#include "foam_side/fluid_books.hpp"
+#include "foam_side/quantities.hpp"
+
+namespace demvof::test {
+namespace {
+
+const double pi = 3.14159265358979323846;
+
+class ThickLiquid : public testing::TestWithParam<double> {};  // nu dt/dx2
+
+/// A swirl between slip walls is a mode of the Laplacian, on the mesh too, and needs no pressure: with
+/// implicit Euler it falls by 1/(1 + nu k2 dt) in each step.
+TEST_P(ThickLiquid, SwirlDiesOut) {
+  const double length = 0.1, cells = 20, dx = length / cells, dt = 1e-3, eps = 0.6;
+  const double nu = GetParam() * dx * dx / dt;
+  const Settings slip{{"nu_water", std::to_string(nu)},
+                      {"walls_U", "{ type slip; }"},
+                      {"bottom_U", "{ type slip; }"},
+                      {"top_U", "{ type slip; }"},
+                      {"top_p", "{ type fixedFluxPressure; value uniform 0; }"},
+                      {"lx", "0.1"},
+                      {"ly", "0.01"},
+                      {"lz", "0.1"},
+                      {"nx", "20"},
+                      {"ny", "1"},
+                      {"nz", "20"},
+                      {"g_z", "0"},
+                      {"p_tolerance", "1e-14"},
+                      {"p_rel_tol", "0"},
+                      {"first_step", std::to_string(dt)}};
+  const auto flow = FoamCase("thick_swirl", slip).open(scene(true, true, false));
+  set_alpha(*flow, [](const vector&) { return 1.0; });
+  set_initial_porosity(*flow, scalarField(flow->mesh.nCells(), eps));
+  const double speed = 1e-3 / GetParam();
+  const auto swirl = [&](const vector& x) {
+    const double a = pi * x.x() / length, b = pi * x.z() / length;
+    return speed * vector(std::sin(a) * std::cos(b), 0, -std::cos(a) * std::sin(b));
+  };
+  forAll(flow->U, cell) flow->U[cell] = swirl(flow->mesh.C()[cell]);
+  flow->U.correctBoundaryConditions();
+  flow->phi = eps * fvc::flux(flow->U);
+  *flow->velocity_flux = fvc::flux(flow->U);
+  const int steps = 3;
+  for (int step = 0; step < steps; ++step) {
+    begin_window(*flow, flow->time.value() + dt);
+    set_porosity_target(*flow, scalarField(flow->mesh.nCells(), eps));
+    advance(*flow);
+  }
+  ASSERT_EQ(flow->clock.steps, steps);
+  const double k2 = 2 * Foam::sqr(2 / dx * std::sin(pi * dx / (2 * length)));
+  const double left = std::pow(1 + nu * k2 * dt, -steps);
+  double worst = 0;
+  forAll(flow->U, cell) worst =
+      std::max(worst, Foam::mag(flow->U[cell] - left * swirl(flow->mesh.C()[cell])));
+  double swirling = 0;  // amplitude of that mode
+  double of_one = 0;
+  forAll(flow->U, cell) {
+    const vector mode = swirl(flow->mesh.C()[cell]) / speed;
+    swirling += flow->U[cell] & mode;
+    of_one += mode & mode;
+  }
+  std::cout << "nu dt/dx2 " << GetParam() << ": " << left << " of the swirl is left; found "
+            << swirling / of_one / speed << ", largest difference " << worst / speed << "\n";
+  // The cells at the walls know the slope there to first order: 20 cells across are 1 % of the swirl off.
+  EXPECT_NEAR(swirling / of_one / speed, left, 0.03);
+  EXPECT_LT(worst, 0.2 * speed);
+}
+
+/// Through a plug of held particles between walls where nothing slips: where the flow has settled it does not
+/// know how long the steps were.
+TEST_P(ThickLiquid, PlugBetweenWalls) {
+  const double dx = 0.005, nu = 0.5;
+  const auto settled = [&](double number) {
+    const double dt = number * dx * dx / nu;
+    const FoamCase channel("thick_plug",
+                           {{"nu_water", std::to_string(nu)},
+                            {"lx", "0.05"},
+                            {"ly", "0.05"},
+                            {"lz", "0.1"},
+                            {"nx", "10"},
+                            {"ny", "10"},
+                            {"nz", "20"},
+                            {"g_z", "0"},
+                            {"p_tolerance", "1e-7"},
+                            {"p_rel_tol", "0"},
+                            {"first_step", std::to_string(dt)},
+                            {"longest_step", std::to_string(dt)},
+                            {"walls_U", "{ type noSlip; }"},
+                            {"bottom_U", "{ type pressureInletOutletVelocity; value uniform (0 0 0); }"},
+                            {"bottom_p", "{ type totalPressure; p0 uniform 1; value uniform 1; }"},
+                            {"inflow_alpha", "1"},
+                            {"top_alpha", "1"}});
+    auto flow = channel.open(scene(true, true, false));
+    set_alpha(*flow, [](const vector&) { return 1.0; });
+    const auto in_plug = [](const vector& x) { return x.x() < 0.025 && std::abs(x.z() - 0.05) < 0.02; };
+    const scalarField eps = cell_values(*flow, [&](const vector& x) { return in_plug(x) ? 0.5 : 1; });
+    set_initial_porosity(*flow, eps);
+    flow->source->coefficient.field() =
+        cell_values(*flow, [&](const vector& x) { return in_plug(x) ? 1e7 : 0; });
+    const int windows = std::max(40, static_cast<int>(100 / number));
+    for (int window = 0; window < windows; ++window) {
+      begin_window(*flow, flow->time.value() + dt);
+      set_porosity_target(*flow, eps);
+      advance(*flow);
+    }
+    return std::make_pair(Foam::vectorField(flow->U.primitiveField()), pressure_gradient(*flow));
+  };
+  static const auto reference = settled(0.2);
+  const auto& [slow, slow_gradient] = reference;
+  const auto [fast, fast_gradient] = settled(GetParam());
+  const double speed = Foam::max(Foam::mag(slow)()), steep = Foam::max(Foam::mag(slow_gradient)());
+  const double worst = Foam::max(Foam::mag(fast - slow)()),
+               steeper = Foam::max(Foam::mag(fast_gradient - slow_gradient)());
+  std::cout << "nu dt/dx2 " << GetParam() << ": speed " << speed << " differs by " << worst / speed
+            << ", pressure gradient by " << steeper / steep << "\n";
+  EXPECT_LT(worst, 0.006 * speed);
+  EXPECT_LT(steeper, 0.045 * steep);
+}
+
+INSTANTIATE_TEST_SUITE_P(ViscousNumber, ThickLiquid, testing::Values(0.5, 2, 30, 1e3, 1e6));
+
+}  // namespace
+}  // namespace demvof::test
