@@ -368,18 +368,6 @@ void Dem::bring_to_ghosts(const std::string& name) {
   rows->do_forward_comm();
 }
 
-void Dem::reach_further(double radii) {
-  demvof::reach_further(*liggghts_, radii);
-}
-
-NearPairs Dem::near_pairs() const {
-  return demvof::near_pairs(*liggghts_);
-}
-
-std::vector<NearWall> Dem::near_walls(double radii) const {
-  return demvof::near_walls(*liggghts_, radii);
-}
-
 double* const* Dem::particle_rows(const std::string& name) const {
   return liggghts_->modify->find_fix_id(name.c_str())->array_atom;
 }

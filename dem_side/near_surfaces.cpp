@@ -8,6 +8,7 @@
 
 #include "atom.h"
 #include "coupler/base/errors.hpp"
+#include "dem_side/dem.hpp"
 #include "dem_side/granular_walls.hpp"
 #include "dem_side/particle_arrays.hpp"
 #include "force.h"
@@ -98,6 +99,18 @@ std::vector<NearWall> near_walls(LAMMPS& liggghts, double radii) {
       add_near_surface(atom, *fix, *fix->mesh_list()[mesh], radii, walls);
   }
   return walls;
+}
+
+void Dem::reach_further(double radii) {
+  demvof::reach_further(*liggghts_, radii);
+}
+
+NearPairs Dem::near_pairs() const {
+  return demvof::near_pairs(*liggghts_);
+}
+
+std::vector<NearWall> Dem::near_walls(double radii) const {
+  return demvof::near_walls(*liggghts_, radii);
 }
 
 }  // namespace demvof
