@@ -24,6 +24,7 @@
 // face_drag.hpp says.
 
 #include <algorithm>
+#include <vector>
 
 #include "foam_side/cell_field.hpp"
 #include "foam_side/extras.hpp"
@@ -92,6 +93,18 @@ scalarField viscosity_of_thinner_side(const Flow& flow) {
   return least;
 }
 
+/// Where the case gives the pressure it may depend on the velocity (a total pressure): it stays that of the
+/// equation.
+void renew_boundary_pressure(Flow& flow) {
+  volScalarField::Boundary& boundary = flow.p_rgh.boundaryFieldRef();
+  std::vector<scalarField> given(static_cast<std::size_t>(boundary.size()));
+  forAll(boundary, patch) given[static_cast<std::size_t>(patch)] = boundary[patch];
+  flow.p_rgh.correctBoundaryConditions();
+  forAll(boundary, patch) {
+    if (boundary[patch].fixesValue()) boundary[patch] == given[static_cast<std::size_t>(patch)];
+  }
+}
+
 /// Of the equation that u* solves, N/m3. pressure: G of p*.
 Foam::vectorField residual(const Flow& flow, const Foam::vectorField& pressure) {
   const ParticleSource& source = *flow.source;
@@ -105,6 +118,8 @@ Foam::vectorField residual(const Flow& flow, const Foam::vectorField& pressure) 
 void project_velocity(Flow& flow) {
   const PressureSystem& system = flow.pressure_system;
   const bool last = flow.pimple.corrPISO() == flow.pimple.nCorrPISO();
+  for (Foam::fvPatchScalarField& at : flow.p_rgh.boundaryFieldRef())
+    if (at.fixesValue() && !at.coupled()) at.evaluate();
   const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
   solve_momentum(flow);
   if (flow.pimple.finalIter()) note_boundary_stress(flow);
@@ -130,7 +145,7 @@ void project_velocity(Flow& flow) {
   own_gradient(flow) = before - inertia / Foam::sqr(eps) * push;
   flow.p_rgh += potential();
   if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
-  flow.p_rgh.correctBoundaryConditions();
+  renew_boundary_pressure(flow);
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
   open_momentum(flow) = -flow.time.deltaTValue() * left;

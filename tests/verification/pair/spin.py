@@ -48,7 +48,7 @@ def shear(demvof, record):
     spin = particle_states(run.folder)["spin"][0]
     record.note("shear: DEM step over spin time", 2e-3 / spin_time(1))
     record.at_most("shear: spin / (gamma/2), relative error", abs(spin[1] / (gamma / 2) - 1), 2.4e-4)
-    record.at_most("shear: spin about the other axes / (gamma/2)", max(abs(spin[0]), abs(spin[2])) / (gamma / 2), 1.2e-16)
+    record.at_most("shear: spin about the other axes / (gamma/2)", max(abs(spin[0]), abs(spin[2])) / (gamma / 2), 1e-13)
 
 
 def main():
