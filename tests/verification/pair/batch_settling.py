@@ -144,7 +144,7 @@ def main():
         judge_sediment(record, speed, times, frames)
     record.curve("batch settling", "t, s", "height, m", "interface, eps^4.65 v_St", [0, 5], [HEIGHT, HEIGHT - 5 * WEN_YU],
                  style="k-")
-    momentum_of_everything(record, 1e-8 if options.long else 1.4e-10)
+    momentum_of_everything(record, 1e-8 if options.long else 1.2e-10)
     sys.exit(record.write())
 
 
