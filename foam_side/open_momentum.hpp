@@ -13,8 +13,8 @@ namespace demvof {
 /// and H of the new velocity is not what the cells have exchanged among each other: summed over all of them
 /// dt (H(u) - H(u_before)) is momentum made from nothing. It belongs to the fluid (fluid_momentum) and is
 /// returned as a force in the next step. Where viscosity carries momentum over several cells in a step, more
-/// would come of that than was returned: there nothing is left open (keep_stress.cpp). With particles. A
-/// registered field, so that a mesh change maps it.
+/// would come of that than was returned: there what the solver of the velocity leaves is all
+/// (project_velocity.cpp). With particles. A registered field, so that a mesh change maps it.
 Foam::vectorField& open_momentum(Flow& flow);
 /// nullptr before the first step, and without particles.
 const Foam::vectorField* find_open_momentum(const Flow& flow);
