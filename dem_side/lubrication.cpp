@@ -45,7 +45,7 @@ const std::vector<Vec3>& Lubrication::forces(const ParticleArrays& particles, co
   domain_ = dem_.domain();
   tell_ghosts(particles, bodies);
   find_films(particles);
-  order_ends(particles);
+  order_ends();
   share_out(particles);
   forces_.assign(particles.count, {});
   for (const End& end : ends_) {
@@ -135,7 +135,7 @@ void Lubrication::add(const ParticleArrays& particles, const Film& candidate) {
 }
 
 /// By particle, then by its partner; walls come last, in their order.
-void Lubrication::order_ends(const ParticleArrays&) {
+void Lubrication::order_ends() {
   std::sort(ends_.begin(), ends_.end(), [&](const End& a, const End& b) {
     const auto key = [&](const End& end) {
       const bool wall = films_[end.film].second < 0;

@@ -60,7 +60,7 @@ class Lubrication {
   void add_pair(const ParticleArrays& particles, int i, int j);
   void add_wall(const ParticleArrays& particles, const NearWall& wall);
   void add(const ParticleArrays& particles, const Film& film);
-  void order_ends(const ParticleArrays& particles);
+  void order_ends();
   void share_out(const ParticleArrays& particles);
   double mobility_in(const Film& film, int particle) const;
 

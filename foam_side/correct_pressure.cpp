@@ -64,9 +64,7 @@ void correct_pressure(Flow& flow) {
 
   const volVectorField h(neighbours_velocity(flow));
   const surfaceScalarField transported(transported_flux(flow, h));
-  surfaceScalarField phiHbyA(unforced_flux(flow, transported));
-  if (flow.p_rgh.needReference()) balance_boundary(flow, phiHbyA);
-  phiHbyA += mobility * flow.face_force();
+  const surfaceScalarField phiHbyA(flux_without_pressure(flow, transported));
 
   if (flow.porosity)
     Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, phiHbyA, mobility);

@@ -138,7 +138,9 @@ bool predicts(Flow& flow) {
   constexpr double most_of_corrections = 0.25;
   if (!flow.source && flow.pimple.momentumPredictor()) return true;
   const double number = viscous_number(flow);
-  flow.pressure_system.viscous = flow.source && number > most_of_corrections;
+  const bool viscous = flow.source && number > most_of_corrections;
+  flow.pressure_system.viscous = viscous;
+  if (!viscous && find_gradient_at_kinks(flow)) gradient_at_kinks(flow) = Foam::Zero;
   static bool said = false;
   if (!said && (flow.pressure_system.viscous || (number > 1 && !flow.pimple.momentumPredictor()))) {
     Foam::Info << (flow.source ? "Momentum solved in each pressure correction where nu dt/dx2 > 0.25"
@@ -152,9 +154,8 @@ bool predicts(Flow& flow) {
 
 }  // namespace
 
-// Not by fvc::reconstruct, whose result
-// shares the memory of its operand behind restrict pointers: compilers then form z from a y that is already
-// the result's.
+// Not by fvc::reconstruct, whose result shares the memory of its operand behind restrict pointers: compilers
+// then form z from a y that is already the result's.
 void solve_momentum(Flow& flow) {
   const surfaceScalarField at_faces(flow.face_force() - fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
   volVectorField::Internal force(Foam::IOobject("force", flow.time.timeName(), flow.mesh), flow.mesh,

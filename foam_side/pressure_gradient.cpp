@@ -14,25 +14,14 @@
 
 #include "foam_side/pressure_gradient.hpp"
 
+#include "foam_side/kept_field.hpp"
+
 namespace demvof {
 
 namespace {
 
-using Kept = volVectorField::Internal;
 const char* const own_name = "ownPressureGradient";
 const char* const kinks_name = "pressureGradientAtKinks";
-
-const Foam::vectorField* find_kept(const Flow& flow, const char* name) {
-  return flow.mesh.foundObject<Kept>(name) ? &flow.mesh.lookupObject<Kept>(name).field() : nullptr;
-}
-
-Foam::vectorField& kept(Flow& flow, const char* name) {
-  if (!flow.mesh.foundObject<Kept>(name))
-    flow.mesh.objectRegistry::store(
-        new Kept(Foam::IOobject(name, flow.time.timeName(), flow.mesh), flow.mesh,
-                 Foam::dimensionedVector(Foam::dimPressure / Foam::dimLength, Foam::Zero)));
-  return flow.mesh.lookupObjectRef<Kept>(name).field();
-}
 
 }  // namespace
 
@@ -40,13 +29,13 @@ const Foam::vectorField* find_own_gradient(const Flow& flow) {
   return find_kept(flow, own_name);
 }
 Foam::vectorField& own_gradient(Flow& flow) {
-  return kept(flow, own_name);
+  return kept(flow, own_name, Foam::dimPressure / Foam::dimLength);
 }
 const Foam::vectorField* find_gradient_at_kinks(const Flow& flow) {
   return find_kept(flow, kinks_name);
 }
 Foam::vectorField& gradient_at_kinks(Flow& flow) {
-  return kept(flow, kinks_name);
+  return kept(flow, kinks_name, Foam::dimPressure / Foam::dimLength);
 }
 
 Foam::vectorField pressure_gradient(const Flow& flow, bool with_laplace_jump) {

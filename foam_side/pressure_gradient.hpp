@@ -13,7 +13,7 @@ Foam::vectorField& own_gradient(Flow& flow);
 const Foam::vectorField* find_own_gradient(const Flow& flow);
 
 /// What G has beyond the gradient across the faces, where void fraction or drag jump, Pa/m: for the next
-/// prediction. Only where nu dt/dx2 > 1.
+/// prediction. Only where nu dt/dx2 > 1/4.
 Foam::vectorField& gradient_at_kinks(Flow& flow);
 const Foam::vectorField* find_gradient_at_kinks(const Flow& flow);
 

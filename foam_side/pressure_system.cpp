@@ -8,6 +8,43 @@
 #include "transformFvPatchFields.H"
 
 namespace demvof {
+namespace {
+
+/// Flux without the forces that the pressure balances, m3/s.
+tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
+  if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
+  const FaceDrag& c = *flow.pressure_system.face_drag;
+  tmp<surfaceScalarField> flux = tmp<surfaceScalarField>::New(
+      "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
+  if (flow.porosity) flux.ref() += flow.porosity->carried;
+  return flux;
+}
+
+/// Makes what leaves a box without a pressure boundary fit what enters it. Through patches with a given
+/// velocity goes what it says: there flux still holds the push of particles beside the wall, which the wall's
+/// pressure gradient takes.
+void balance_boundary(Flow& flow, surfaceScalarField& flux) {
+  surfaceScalarField through("balanced", flux);
+  const auto given = [&flow](label patch) {
+    const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
+    if (at.coupled()) return false;
+    if (Foam::isA<Foam::transformFvPatchVectorField>(at)) return true;  // slip, symmetry: nothing passes
+    return at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
+  };
+  forAll(flow.mesh.boundary(), patch) {
+    if (!given(patch)) continue;
+    Foam::fvsPatchScalarField& at = through.boundaryFieldRef()[patch];
+    at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
+    if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
+  }
+  make_relative(flow, through);
+  Foam::adjustPhi(through, flow.U, flow.p_rgh);
+  make_absolute(flow, through);
+  forAll(flow.mesh.boundary(), patch) if (!given(patch))
+          flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
+}
+
+}  // namespace
 
 tmp<volScalarField> set_response(Flow& flow, const volScalarField& A) {
   PressureSystem& system = flow.pressure_system;
@@ -41,12 +78,10 @@ tmp<surfaceScalarField> transported_flux(const Flow& flow, const volVectorField&
   return transported;
 }
 
-tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported) {
-  if (!flow.source) return tmp<surfaceScalarField>::New("phiHbyA", transported);
-  const FaceDrag& c = *flow.pressure_system.face_drag;
-  tmp<surfaceScalarField> flux = tmp<surfaceScalarField>::New(
-      "phiHbyA", (transported + c.resistance * c.reference + c.push) / (1.0 / c.eps_f + c.resistance));
-  if (flow.porosity) flux.ref() += flow.porosity->carried;
+tmp<surfaceScalarField> flux_without_pressure(Flow& flow, const surfaceScalarField& transported) {
+  tmp<surfaceScalarField> flux = unforced_flux(flow, transported);
+  if (flow.p_rgh.needReference()) balance_boundary(flow, flux.ref());
+  flux.ref() += *flow.pressure_system.mobility * flow.face_force();
   return flux;
 }
 
@@ -71,27 +106,6 @@ tmp<scalarField> rate_to_serve(const Flow& flow) {
   if (flow.pimple.finalIter()) return wanted_porosity_rate(flow);
   const Porosity& porosity = *flow.porosity;
   return (porosity.goal.field() - porosity.eps.oldTime().primitiveField()) / flow.time.deltaTValue();
-}
-
-void balance_boundary(Flow& flow, surfaceScalarField& flux) {
-  surfaceScalarField through("balanced", flux);
-  const auto given = [&flow](label patch) {
-    const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
-    if (at.coupled()) return false;
-    if (Foam::isA<Foam::transformFvPatchVectorField>(at)) return true;  // slip, symmetry: nothing passes
-    return at.fixesValue() && !Foam::isA<Foam::inletOutletFvPatchVectorField>(at);
-  };
-  forAll(flow.mesh.boundary(), patch) {
-    if (!given(patch)) continue;
-    Foam::fvsPatchScalarField& at = through.boundaryFieldRef()[patch];
-    at == (flow.U.boundaryField()[patch] & flow.mesh.Sf().boundaryField()[patch]);
-    if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
-  }
-  make_relative(flow, through);
-  Foam::adjustPhi(through, flow.U, flow.p_rgh);
-  make_absolute(flow, through);
-  forAll(flow.mesh.boundary(), patch) if (!given(patch))
-          flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];
 }
 
 void update_face_velocity(Flow& flow) {

@@ -26,8 +26,9 @@ tmp<volScalarField> set_response(Flow& flow, const volScalarField& A);
 /// mean(H/A).S and memory, less what goes along with the particles, m3/s; h: H/A.
 tmp<surfaceScalarField> transported_flux(const Flow& flow, const volVectorField& h);
 
-/// Flux without the forces that the pressure balances, m3/s.
-tmp<surfaceScalarField> unforced_flux(const Flow& flow, const surfaceScalarField& transported);
+/// Flux of all forces but the gradient of p_rgh, m3/s. What leaves a box without a pressure boundary is made
+/// to fit what enters it. transported: transported_flux.
+tmp<surfaceScalarField> flux_without_pressure(Flow& flow, const surfaceScalarField& transported);
 
 /// H/A of the present velocity, at the boundary what the flux there has to be, m/s.
 tmp<volVectorField> neighbours_velocity(const Flow& flow);
@@ -40,11 +41,6 @@ Foam::vectorField own_push(const Flow& flow, const surfaceScalarField& transport
 /// The rate that the flux being solved has to serve: it moves alpha again in this step if an outer
 /// corrector follows, otherwise in the next one.
 tmp<scalarField> rate_to_serve(const Flow& flow);
-
-/// Makes what leaves a box without a pressure boundary fit what enters it. Through patches with a given
-/// velocity goes what it says: there flux still holds the push of particles beside the wall, which the wall's
-/// pressure gradient takes.
-void balance_boundary(Flow& flow, surfaceScalarField& flux);
 
 /// The velocity of the faces that goes with flux and velocity. phi is still that in space.
 void update_face_velocity(Flow& flow);

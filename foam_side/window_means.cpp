@@ -10,26 +10,15 @@
 #include "foam_side/window_means.hpp"
 
 #include "foam_side/fluid_gradients.hpp"
+#include "foam_side/kept_field.hpp"
 #include "foam_side/pressure_gradient.hpp"
 
 namespace demvof {
 
 namespace {
 
-using Kept = volVectorField::Internal;
 const char* const gradient_name = "meanPressureGradient";
 const char* const acceleration_name = "meanAcceleration";
-
-const Foam::vectorField* find_kept(const Flow& flow, const char* name) {
-  return flow.mesh.foundObject<Kept>(name) ? &flow.mesh.lookupObject<Kept>(name).field() : nullptr;
-}
-
-Foam::vectorField& kept(Flow& flow, const char* name, const Foam::dimensionSet& dimensions) {
-  if (!flow.mesh.foundObject<Kept>(name))
-    flow.mesh.objectRegistry::store(new Kept(Foam::IOobject(name, flow.time.timeName(), flow.mesh), flow.mesh,
-                                             Foam::dimensionedVector(dimensions, Foam::Zero)));
-  return flow.mesh.lookupObjectRef<Kept>(name).field();
-}
 
 }  // namespace
 
