@@ -10,10 +10,12 @@
 //
 // makes its flux continuous by a potential, which the inertia A_0 = eps rho/dt and the drag alone resist,
 //
-//   w = w* - m grad(psi).S,   1/m = mean((A_0 + C)/eps2)
+//   w = w* - m grad(psi).S,   m = max(m_0, b),   1/m_0 = mean((A_0 + C)/eps2)
 //
-// and gives the cells what it gave the faces: u = u* + (w - w*)/(eps |S|), reconstructed. The stress stays
-// that of u*, fluxes that add up to zero; open is what the solver of u* leaves. It is the incremental
+// with b the mobility in w* itself (face_drag.hpp): between gas that the liquid's viscosity reaches and gas
+// that it does not, both with particles, that is many times m_0, and corrections that count with half of it
+// or less diverge. The cells get what the faces got: u = u* + (w - w*)/(eps |S|), reconstructed. The stress
+// stays that of u*, fluxes that add up to zero; open is what the solver of u* leaves. It is the incremental
 // projection (Goda, J. Comput. Phys. 30 (1979) 76), stable for any nu dt/dx2. Where another correction
 // follows, the pressure also takes what the stress needs,
 //
@@ -56,9 +58,7 @@ surfaceScalarField predicted_flux(Flow& flow) {
   const PressureSystem& system = flow.pressure_system;
   const surfaceScalarField& mobility = *system.mobility;
   const surfaceScalarField transported(transported_flux(flow, neighbours_velocity(flow)));
-  surfaceScalarField flux(unforced_flux(flow, transported));
-  if (flow.p_rgh.needReference()) balance_boundary(flow, flux);
-  flux += mobility * flow.face_force();
+  surfaceScalarField flux(flux_without_pressure(flow, transported));
   if (flow.porosity)
     Foam::constrainPressure(flow.p_rgh, flow.porosity->eps, flow.U, flux, mobility);
   else
@@ -130,7 +130,7 @@ void project_velocity(Flow& flow) {
                             flow.source->coefficient.field());  // A_0 + C
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
-  const surfaceScalarField mobility(1.0 / fvc::interpolate(resistance));
+  const surfaceScalarField mobility(Foam::max(1.0 / fvc::interpolate(resistance), *system.mobility));
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
@@ -142,6 +142,7 @@ void project_velocity(Flow& flow) {
   const Foam::vectorField push = reconstructed(flow, flow.phi - predicted);
   flow.U.primitiveFieldRef() += push / eps;
   flow.U.correctBoundaryConditions();
+  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
   own_gradient(flow) = before - inertia / Foam::sqr(eps) * push;
   flow.p_rgh += potential();
   if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
