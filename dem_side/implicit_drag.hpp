@@ -27,8 +27,8 @@ namespace demvof {
 
 /// (1 - exp(-x))/x for x >= 0; 1 at x = 0.
 inline double mean_decay(double x) {
-  if (x < 1e-2)
-    return 1 - x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6))));  // x^6/5040 left out
+  if (x < 1e-2)  // x^6/5040 left out; divisions would wait for each other
+    return 1 - x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720)))));
   return -std::expm1(-x) / x;
 }
 

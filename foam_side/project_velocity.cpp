@@ -130,7 +130,8 @@ void project_velocity(Flow& flow) {
                             flow.source->coefficient.field());  // A_0 + C
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
-  const surfaceScalarField mobility(Foam::max(1.0 / fvc::interpolate(resistance), *system.mobility));
+  const surfaceScalarField of_inertia(1.0 / fvc::interpolate(resistance));  // m_0
+  const surfaceScalarField mobility(Foam::max(of_inertia, *system.mobility));
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
@@ -139,17 +140,19 @@ void project_velocity(Flow& flow) {
   const tmp<volScalarField> potential = fit_flux(
       flow, flow.phi, mobility, &rate, flow.mesh.solver(flow.p_rgh.select(last && flow.pimple.finalIter())));
 
-  const Foam::vectorField push = reconstructed(flow, flow.phi - predicted);
+  const surfaceScalarField gained(flow.phi - predicted);
+  const Foam::vectorField push = reconstructed(flow, gained);
+  const Foam::vectorField of_pressure = reconstructed(flow, of_inertia / mobility * gained);
   flow.U.primitiveFieldRef() += push / eps;
   flow.U.correctBoundaryConditions();
   if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
-  own_gradient(flow) = before - inertia / Foam::sqr(eps) * push;
+  own_gradient(flow) = before - inertia / Foam::sqr(eps) * of_pressure;
   flow.p_rgh += potential();
   if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
   renew_boundary_pressure(flow);
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
-  open_momentum(flow) = -flow.time.deltaTValue() * left;
+  open_momentum(flow) = -flow.time.deltaTValue() * (left + inertia / eps * (push - of_pressure));
 }
 
 }  // namespace demvof

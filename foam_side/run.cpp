@@ -26,6 +26,7 @@
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
 #include "foam_side/numbers_of_case.hpp"
+#include "foam_side/pressure_solver.hpp"
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
 #include "foam_side/run_record.hpp"
@@ -287,7 +288,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   install_signal_handlers();
   if (parameters.gravity) flow->gravity = *parameters.gravity;
   for (const std::string& said : {slope_without_effect(flow->mesh, flow->gravity),
-                                  gravity_that_jumps(case_gravity(args), flow->gravity)})
+                                  gravity_that_jumps(case_gravity(args), flow->gravity),
+                                  slow_pressure_solver(*flow)})
     if (!said.empty()) scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
