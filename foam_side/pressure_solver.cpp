@@ -13,8 +13,10 @@ std::string slow_pressure_solver(const Flow& flow) {
   if (cells < many_cells || solver.get<Foam::word>("solver") != "PCG") return {};
   if (solver.isDict("preconditioner") || solver.get<Foam::word>("preconditioner") == "GAMG") return {};
   return fmt::format(
-      "system/fvSolution: p_rgh: PCG with {} takes many iterations on {} cells; with GAMG as its preconditioner "
-      "the fluid took 0.75 of the time on 162000, 0.55 on 384000 (docs/performance.md, The pressure's solver)",
+      "system/fvSolution: p_rgh: PCG with {} takes many iterations on {} cells; with GAMG as its "
+      "preconditioner "
+      "the fluid took 0.75 of the time on 162000, 0.55 on 384000 (docs/performance.md, The pressure's "
+      "solver)",
       solver.get<Foam::word>("preconditioner"), cells);
 }
 

@@ -7,7 +7,8 @@
 
 namespace demvof {
 
-/// What to say when fvSolution's solver of p_rgh is slow for so large a mesh; empty when it is not. Collective.
+/// What to say when fvSolution's solver of p_rgh is slow for so large a mesh; empty when it is not.
+/// Collective.
 std::string slow_pressure_solver(const Flow& flow);
 
 }  // namespace demvof

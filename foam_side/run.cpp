@@ -287,9 +287,9 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
   if (parameters.gravity) flow->gravity = *parameters.gravity;
-  for (const std::string& said : {slope_without_effect(flow->mesh, flow->gravity),
-                                  gravity_that_jumps(case_gravity(args), flow->gravity),
-                                  slow_pressure_solver(*flow)})
+  for (const std::string& said :
+       {slope_without_effect(flow->mesh, flow->gravity),
+        gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow)})
     if (!said.empty()) scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
