@@ -256,8 +256,8 @@ FAULTS = [
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
     # ---- what the pressure corrections leave open
     ("foam_side/project_velocity.cpp", "open_momentum(flow) = -flow", "open_momentum(flow) = flow", THICK),
-    ("foam_side/project_velocity.cpp", "Foam::max(1.0 / fvc::interpolate(resistance), *system.mobility)",
-     "1.0 / fvc::interpolate(resistance)", THICK),
+    ("foam_side/project_velocity.cpp", "mobility(Foam::max(of_inertia, *system.mobility));", "mobility(1.0 * of_inertia);", THICK),
+    ("foam_side/project_velocity.cpp", "left + inertia / eps * (push - of_pressure)", "left", SETTLING),
     ("foam_side/project_velocity.cpp", "if (!last) flow.p_rgh", "if (last) flow.p_rgh", THICK),
     ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", SETTLING),
     ("foam_side/predict_momentum.cpp", "flow.source && number > most_of_corrections;", "false;", THICK),
