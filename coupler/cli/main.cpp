@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -179,6 +180,7 @@ class CommandLine {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the shell's limit fails, here and in the programs
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with stderr, also in a file
   try {
     return CommandLine().run(argc, argv);

@@ -82,8 +82,9 @@ int run_command(CaseOptions options, const RunOptions& run) {
     for (const std::string& change : state.changes) say("not as in the run that goes on: " + change);
     if (state.point.frame.fluid_ranks != parameters.fluid.ranks)
       redistribute(parameters, folder, state.point, say);
-  } else if (!folder.ready()) {
-    prepare_case(parameters, folder, options.force, say);
+  } else {
+    if (folder.ready()) folder.hold();  // and is it still?
+    if (!folder.ready()) prepare_case(parameters, folder, options.force, say);
   }
 
   folder.hold();

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coupler/cli/run_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -56,7 +59,7 @@ bool inside(const fs::path& inner, const fs::path& outer) {
 bool holds_nothing(const fs::path& folder) {
   const fs::directory_iterator all(folder);
   return std::all_of(begin(all), end(all),
-                     [](const fs::directory_entry& entry) { return entry.path().filename() == ".lock"; });
+                     [](const fs::directory_entry& entry) { return entry.path().filename() == lock_file; });
 }
 
 }  // namespace
@@ -133,7 +136,9 @@ void RunFolder::clear(bool force) const {
   if (fs::exists(path_) && !fs::is_directory(path_))
     throw InputError(
         fmt::format("--out {}: there is a file of that name; choose another --out", path_.string()));
-  if (fs::exists(path_) && !holds_nothing(path_)) {
+  // Whose folder it is comes before what is in it: a run that has just begun there has little to show.
+  if (!fs::exists(path_) || holds_nothing(path_) || fs::exists(path_ / lock_file)) hold();
+  if (!holds_nothing(path_)) {
     const bool of_a_run = has_results() || fs::exists(prepare_log()) || fs::exists(path_ / marker);
     if (!of_a_run)
       throw InputError(
@@ -169,6 +174,9 @@ void RunFolder::hold() const {
   fs::create_directories(path_, error);
   if (error)
     throw InputError(fmt::format("--out {}: the folder cannot be made: {}", path_.string(), error.message()));
+  if (faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    throw InputError(fmt::format("--out {}: nothing can be written to the folder: {}", path_.string(),
+                                 std::strerror(errno)));
   lock_.emplace(path_, RunLock::Part::command);
 }
 

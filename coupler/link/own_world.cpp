@@ -104,7 +104,7 @@ OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double start_limit, const
   main_thread = std::this_thread::get_id();
   if (!notes.empty()) leave_notes_in(notes, self_);
   pair_->failure_signal = std::make_unique<FailureSignal>(pair_->both);
-  pair_->watch = std::make_unique<Watch>(self_, others);
+  pair_->watch = std::make_unique<Watch>(self_, others, partner_size_ == 0 ? start_limit : 0);
   install_signal_handlers();
   on_sudden_end(sudden_end);
   std::set_terminate(on_terminate);

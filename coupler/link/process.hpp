@@ -22,6 +22,10 @@ struct Process {
   std::string name() const;
 };
 
+/// What to try when one is stopped.
+inline constexpr const char* advice_on_a_stop =
+    "see who stops it (SIGSTOP, Ctrl-Z, a debugger, a batch system), and let it go on (SIGCONT) in time.";
+
 /// The calling process.
 Process this_process(Side side, int rank);
 /// All processes of a communicator in the order of its ranks. Collective.

@@ -23,13 +23,15 @@ extern "C" void demvof_on_stop_signal(int number) {
 }  // namespace
 
 void install_signal_handlers() {
-  for (const int number : {SIGINT, SIGTERM, SIGUSR1}) {
+  for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) {
+    const bool once = number == SIGINT || number == SIGTERM;
     struct sigaction action = {};
     action.sa_handler = demvof_on_stop_signal;
-    action.sa_flags = SA_RESTART | (number == SIGUSR1 ? 0 : static_cast<int>(SA_RESETHAND));
+    action.sa_flags = SA_RESTART | (once ? static_cast<int>(SA_RESETHAND) : 0);
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, nullptr);
   }
+  signal(SIGXFSZ, SIG_IGN);  // a file beyond the shell's limit: its write fails, as on a full disk
   install_crash_handlers();
 }
 

@@ -3,7 +3,8 @@
 
 namespace demvof {
 
-/// SIGINT, SIGTERM and SIGUSR1 ask for a stop at the end of the window. Solvers install handlers of
+/// SIGINT, SIGTERM, SIGUSR1 and SIGXCPU (the shell's limit of CPU time, with a second left until the next
+/// one) ask for a stop at the end of the window. Solvers install handlers of
 /// their own while they open a case: call this again once the solver is open. A second SIGINT or
 /// SIGTERM is left to the system's default and ends the process at once.
 ///

@@ -85,8 +85,7 @@ void Waiting::give_up(const std::string& waiting_for) const {
   const std::string text = fmt::format(
       "{} waited {:g} s for {} ({}) and gave up{}.\nWhat to try: {}", world_.self().name(), time_out_,
       waiting_for, run_stage().describe(), found ? fmt::format(": {} is stopped", stopped->name()) : "",
-      found ? "see who stops it (SIGSTOP, Ctrl-Z, a debugger, a batch system), and let it go on (SIGCONT) in "
-              "time."
+      found ? advice_on_a_stop
             : "look whether the partner is stuck; raise coupling.time_out if its windows take that long.");
   heard_of(failure_here(found ? stopped->side : partner_of(world_.side()), exit_partner_lost, text));
   throw PartnerLost(text);

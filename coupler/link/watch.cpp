@@ -7,6 +7,8 @@
 #include <signal.h>
 #include <time.h>
 
+#include <algorithm>
+
 #include "coupler/base/errors.hpp"
 #include "coupler/link/crash.hpp"
 #include "coupler/link/failure.hpp"
@@ -16,6 +18,7 @@ namespace demvof {
 namespace {
 
 constexpr long turn_ms = 200;         // between two looks at the processes
+constexpr double longest_turn = 1;    // s: who comes back later was stopped
 constexpr long main_thread_ms = 300;  // for a waiting main thread to report a loss itself
 constexpr long linger_ms = 300;   // for the others to find the first death, not ours, and to have their say
 constexpr long crash_ms = 500;    // for the others to find the death and its reason, before mpirun acts on it
@@ -36,6 +39,12 @@ bool wait_for_bell(long milliseconds) {
   return sem_timedwait(&bell.semaphore, &until) == 0;
 }
 
+double now() {
+  timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 // Signals are for the main thread: solvers' handlers expect to run there.
 class SignalsBlocked {
  public:
@@ -52,9 +61,10 @@ class SignalsBlocked {
 
 }  // namespace
 
-Watch::Watch(const Process& self, const std::vector<Process>& others) : self_(self) {
+Watch::Watch(const Process& self, const std::vector<Process>& others, double longest_stop)
+    : self_(self), longest_stop_(longest_stop), looked_(now()) {
   for (const Process& other : others)
-    if (other.host == self.host && is_running(other)) watched_.push_back(other);
+    if (other.host == self.host && is_running(other)) watched_.push_back({other});
   const SignalsBlocked inherited_by_the_thread;
   thread_ = std::thread([this] { keep_watch(); });
 }
@@ -76,8 +86,18 @@ void Watch::check() const {
 }
 
 const Process* Watch::find_ended() const {
-  for (const Process& process : watched_)
-    if (!is_running(process)) return &process;
+  for (const Watched& other : watched_)
+    if (!is_running(other.process)) return &other.process;
+  return nullptr;
+}
+
+const Process* Watch::find_stopped() {
+  const double time = now(), turn = std::min(time - looked_, longest_turn);
+  looked_ = time;
+  for (Watched& other : watched_) {
+    other.stopped = activity_of(other.process).state == 'T' ? other.stopped + turn : 0;
+    if (other.stopped > longest_stop_) return &other.process;
+  }
   return nullptr;
 }
 
@@ -88,6 +108,11 @@ void Watch::keep_watch() {
     if (quit_ || standing_down_) continue;
     if (const Process* ended = find_ended()) {
       handle_loss(*ended);
+      return;
+    }
+    if (longest_stop_ == 0) continue;
+    if (const Process* stopped = find_stopped()) {
+      handle_stop(*stopped);
       return;
     }
   }
@@ -123,6 +148,18 @@ void Watch::handle_loss(const Process& ended) {
   }
   pause(report_ms);
   if (!quit_ && !standing_down_) end_now(exit_code);
+}
+
+void Watch::handle_stop(const Process& stopped) {
+  if (!claim_failure()) return;
+  const std::string text =
+      fmt::format("{} waited {:g} s {} and gave up: {} is stopped.\nWhat to try: {}", self_.name(),
+                  longest_stop_, run_stage().describe(), stopped.name(), advice_on_a_stop);
+  const Failure failure = failure_here(self_.side, exit_partner_lost, text);
+  leave_note(failure);
+  report_failure(failure, text);
+  pause(linger_ms);
+  end_now(exit_partner_lost);
 }
 
 void Watch::handle_crash(int number) {

@@ -18,13 +18,15 @@ namespace demvof {
 ///
 /// When one has ended, a main thread that waits for the partner throws PartnerLost (check); one that
 /// computes is not waited for: the watch itself reports, speaks the last words and ends the process
-/// with exit code 4; a note that the dead process has left (failure.hpp) says why. mpirun kills the rest of a
-/// job one or two seconds after the first death. Processes on other hosts cannot be seen: their loss shows
-/// when the link's time-out passes.
+/// with exit code 4; a note that the dead process has left (failure.hpp) says why. Of a side without a
+/// partner, whose ranks wait for each other inside the solver, it does the same when one of them is stopped.
+/// mpirun kills the rest of a job one or two seconds after the first death. Processes on other hosts cannot
+/// be seen: their loss shows when the link's time-out passes.
 class Watch {
  public:
   /// others: processes to look after; those that cannot be seen from here are left out.
-  Watch(const Process& self, const std::vector<Process>& others);
+  /// longest_stop: of one of them, s; 0: others look after that.
+  Watch(const Process& self, const std::vector<Process>& others, double longest_stop);
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -43,12 +45,20 @@ class Watch {
  private:
   void keep_watch();
   const Process* find_ended() const;
+  const Process* find_stopped();
   void handle_loss(const Process& ended);
+  void handle_stop(const Process& stopped);
   void handle_crash(int number);
   void pause(long milliseconds);
 
+  struct Watched {
+    Process process;
+    double stopped = 0;  // s so far, of which this process was not stopped itself
+  };
+
   Process self_;
-  std::vector<Process> watched_;
+  double longest_stop_, looked_ = 0;  // s
+  std::vector<Watched> watched_;
   std::string loss_;              // written once before lost_ is set
   std::optional<int> loss_code_;  // of a fellow that left a note; likewise
   std::atomic<bool> lost_{false}, main_waits_{false}, standing_down_{false}, quit_{false};

@@ -118,6 +118,15 @@ std::string offer(const fs::path& run, std::optional<long> damaged) {
   return "There is no other state that is whole; start a new run";
 }
 
+/// Of those that a run makes.
+void require_folders(const fs::path& run) {
+  for (const char* name : {"restart", "earlier", "fluid", "particles", "bulk", "surfaces"})
+    if (fs::exists(run / name) && !fs::is_directory(run / name))
+      throw InputError(
+          fmt::format("--continue: {} is no folder, but the run has to write there: move it away",
+                      (run / name).string()));
+}
+
 void require_same(const fs::path& run, bool same, const std::string& key, const std::string& then) {
   if (!same)
     throw InputError(fmt::format("--continue: {} was {} in the run in {}; set it to that, or start a new run",
@@ -195,6 +204,7 @@ void keep_earlier(const fs::path& run, const std::string& file) {
 
 RestartPoint read_restart_point(const fs::path& run, std::optional<long> window, const StateFrame& now,
                                 double end_time) {
+  require_folders(run);
   RestartPoint point;
   try {
     point = read(window ? state_file(run, *window) : latest_file(run));

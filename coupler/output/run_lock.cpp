@@ -36,7 +36,7 @@ std::string host_name() {
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& run, Part part) {
-  file_ = open((run / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  file_ = open((run / lock_file).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) return;  // a folder that cannot be written says so soon enough
   // Who is it: the host, for those that see the folder from another one.
   struct flock lock = byte_lock(static_cast<long>(part));

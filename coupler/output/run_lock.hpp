@@ -7,7 +7,10 @@
 
 namespace demvof {
 
-/// One run, one folder: each of its programs holds its part of the lock file <run>/.lock while it lives. The
+/// In the folder of a run.
+constexpr const char* lock_file = ".lock";
+
+/// One run, one folder: each of its programs holds its part of the lock file while it lives. The
 /// kernel takes the lock from a process that ends, however it ends: there is none that is left over.
 class RunLock {
  public:

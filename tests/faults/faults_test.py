@@ -108,7 +108,7 @@ class Faults(Injected):
             with contextlib.suppress(ProcessLookupError):
                 if victims:
                     os.kill(RANDOM.choice(victims), signal.SIGKILL)
-            code, text = pair.wait(60)
+            code, text = pair.wait_for_signs()
             what = f"kill {continued + too_early + through}\n{text}"
             if code == 0:
                 through += 1

@@ -10,6 +10,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification" / "pair"))
 from box_case import BoxCase, Open, Particle, Wall, SIDES  # noqa: E402
+from pair import wait_for_signs  # noqa: E402
 
 LONG = "--long" in sys.argv
 DEMVOF, LIBRARY = map(os.path.abspath, sys.argv[1:3])
@@ -31,15 +32,15 @@ def beads_into_water(folder, fine=(8, 4, 8), **keys):
                    sides={side: Open() if side == "z+" else Wall() for side in SIDES}, **keys).write()
 
 
-def demvof(case_file, out, *options, fault=None, timeout=120):
-    """Exit code and what was printed."""
+def demvof(case_file, out, *options, fault=None, silence=60):
+    """Exit code and what was printed; silence: s in which a run that lives leaves a trace."""
     environment = dict(os.environ)
     if fault:
         environment.update(LD_PRELOAD=LIBRARY, DEMVOF_FAULT=fault)
     force = [] if "--continue" in options else ["--force"]
-    done = subprocess.run([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], env=environment, text=True,
-                          errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout, check=False)
-    return done.returncode, done.stdout
+    process = subprocess.Popen([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], env=environment, text=True,
+                               errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+    return wait_for_signs(process, out, silence)
 
 
 def status(out):

@@ -34,6 +34,37 @@ def replace(file, old, new):
     pathlib.Path(file).write_text(text.replace(old, new))
 
 
+def traces(folder):
+    """What changes in a folder while a run writes there: its files, their sizes and times."""
+    found = {}
+    for root, _, files in os.walk(folder):
+        for file in files:
+            try:
+                facts = os.stat(os.path.join(root, file))
+            except OSError:
+                continue
+            found[os.path.join(root, file)] = (facts.st_size, facts.st_mtime_ns)
+    return found
+
+
+def wait_for_signs(process, folder, silence):
+    """Exit code and everything printed, however long it takes. A run that has left no trace in its folder for so many
+    seconds is killed, and the test fails: a busy machine makes a run slow, a fault makes it silent."""
+    seen, time_of_sign = None, time.monotonic()
+    while True:
+        try:
+            text, _ = process.communicate(timeout=1)
+            return process.returncode, text
+        except subprocess.TimeoutExpired:
+            now = traces(folder)
+            if now != seen:
+                seen, time_of_sign = now, time.monotonic()
+            elif time.monotonic() - time_of_sign > silence:
+                os.killpg(process.pid, signal.SIGKILL)
+                text, _ = process.communicate()
+                raise AssertionError(f"the run has left no trace in {folder} for {silence} s:\n{text}") from None
+
+
 class Pair:
     """One `demvof run` in a session of its own."""
 
@@ -52,6 +83,9 @@ class Pair:
             text, _ = self.process.communicate()
             raise AssertionError(f"the run did not end within {seconds} s:\n{text}") from None
         return self.process.returncode, text
+
+    def wait_for_signs(self, silence=60):
+        return wait_for_signs(self.process, self.out, silence)
 
     def wait_for_window(self, number, seconds=120):
         """Until the run has done a number of windows."""
