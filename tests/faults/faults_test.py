@@ -217,13 +217,17 @@ class Faults(Injected):
     def test_a_partner_that_is_no_program_of_ours(self):
         case_file = beads_into_water(self.folder, coupling={"time_out": 3})
         subprocess.run([DEMVOF, "prepare", str(case_file), "--out", str(self.out)], check=True, stdout=subprocess.DEVNULL)
-        foam_side = pathlib.Path(DEMVOF).parent / "foam_side"
-        begin = time.monotonic()
-        done = subprocess.run(["mpirun", "-np", "1", str(foam_side), str(case_file), "--out", str(self.out), ":", "-np", "1",
-                               "sleep", "60"], text=True, capture_output=True, timeout=50, check=False)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertLess(time.monotonic() - begin, 30)
-        self.assertIn("waited 3 s for the other processes of the run to start", done.stderr)
+        programs = pathlib.Path(DEMVOF).parent
+        strangers = [["sleep", "60"], ["true"]] + [[str(programs / "stranger"), what] for what in ("begin", "meet", "end")]
+        for stranger in strangers:
+            with self.subTest(stranger):
+                begin = time.monotonic()
+                done = subprocess.run(["mpirun", "--oversubscribe", "-np", "1", str(programs / "foam_side"), str(case_file),
+                                       "--out", str(self.out), ":", "-np", "1", *stranger], text=True, capture_output=True,
+                                      timeout=50, check=False)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertLess(time.monotonic() - begin, 30)
+                self.assertIn("waited 3 s for the other processes of the run to start", done.stderr)
 
     def test_a_partner_stopped_at_its_start(self):
         case_file = beads_into_water(self.folder, coupling={"time_out": 3})

@@ -40,6 +40,7 @@ CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_muta
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
 CONTINUED = {"^pair.continued$": PAIR}
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
+PLACES = {"^faults_places$": [*PAIR, "failing_files"]}
 
 FAULTS = [
     # ---- closures
@@ -304,4 +305,10 @@ FAULTS = [
     ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", WRONG_USE),
     ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
      """{"--continue (checksum of the state)", ""}""", WRONG_USE),
+    ("coupler/output/restart_point.cpp", "  require_folders(run);\n", "", PLACES),
+    ("coupler/output/run_lock.cpp", "if (fcntl(file_, F_SETLK, &lock) != 0) {", "if (false) {", PLACES),
+    ("coupler/cli/run_folder.cpp", "if (faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0)", "if (false)", PLACES),
+    ("coupler/link/watch.cpp", "if (longest_stop_ == 0) continue;", "continue;", PLACES),
+    ("coupler/link/signals.cpp", "signal(SIGXFSZ, SIG_IGN);", "", PLACES),
+    ("coupler/link/signals.cpp", "{SIGINT, SIGTERM, SIGUSR1, SIGXCPU}", "{SIGINT, SIGTERM, SIGUSR1}", PLACES),
 ]
