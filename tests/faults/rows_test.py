@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from injected import DEMVOF, LONG, Injected, beads_into_water, demvof, main, status
+from injected import DEMVOF, LONG, RANDOM, Injected, beads_into_water, demvof, main, status
 from pair import Pair
 
 BIN = pathlib.Path(DEMVOF).parent
@@ -244,7 +244,9 @@ class Rows(Injected):
         def when(pair):
             while not pair.pids("dem_side") and pair.process.poll() is None:
                 time.sleep(0.005)
-        self.interrupted(when)
+            time.sleep(RANDOM.uniform(0, 0.3))
+        for number in 5 * (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) if LONG else (signal.SIGINT, signal.SIGHUP):
+            self.interrupted(when, number)
 
     @slow
     def test_control_c_in_the_last_window(self):

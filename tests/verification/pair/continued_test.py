@@ -13,6 +13,7 @@ import sys
 import unittest
 
 from box_case import BoxCase, Open, Particle, Wall, SIDES
+from histories import differences
 from pair import Pair
 from reporting.run import Run
 
@@ -46,14 +47,7 @@ class Continued(unittest.TestCase):
         """Every row of history.csv, and what ParaView finds."""
         a, b = Run(whole), Run(parts)
         self.assertEqual(list(a.times), list(b.times))
-        worst = {}
-        for name, values in a.history.items():
-            if name.startswith("max_speed_") or name == "time":
-                continue  # a place may change from one cell to another of the same speed
-            # A component is compared with the largest one.
-            family = [other for other in a.history if name[-2:] in ("_x", "_y", "_z") and other[:-2] == name[:-2]]
-            scale = max(abs(v) for other in family or [name] for v in a.history[other]) or 1
-            worst[name] = max(abs(v - w) for v, w in zip(values, b.history[name])) / scale
+        worst = differences(b, a)
         name = max(worst, key=worst.get)
         print(f"{self._testMethodName}: largest difference {worst[name]:.1e}, of {name}")
         self.assertLess(worst[name], bound)
