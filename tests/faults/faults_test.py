@@ -128,15 +128,18 @@ class Faults(Injected):
                 too_early += 1
                 continue
             code, text = demvof(self.case_file, self.out, "--continue", *options)
-            self.assertEqual(code, 0, what + text)
+            if code == 2 and "is at 0.01 s already" in text:  # killed between the last state and results.json
+                through += 1
+            else:
+                self.assertEqual(code, 0, what + text)
+                continued += 1
             if ranks == 1:
                 self.assertEqual((self.out / "history.csv").read_text(), whole, what)
             part, all_of_it = Run(self.out), Run(self.folder / "whole")
             self.assertEqual(list(part.times), list(all_of_it.times), what)
             largest = max(largest, *differences(part, all_of_it).values())
             self.assertLess(largest, SUMS_OVER_RANKS, what)
-            continued += 1
-            if continued % 10 == 0:
+            if code == 0 and continued % 10 == 0:
                 print(f"{continued} killed and continued, {too_early} killed before the first state, {through} were through; "
                       f"largest difference {largest:.1e}", flush=True)
 
