@@ -34,7 +34,7 @@ void FluidTorque::act(const ParticleArrays& particles, int i, const Grip& grip) 
   torque_sums_.contact += contact;
   if (grip.factor == 0) return;
   const Vec3 given =
-      implicit_drag(grip.factor, grip.pull / grip.factor, contact,
+      implicit_drag(grip.factor, grip.pull, contact,
                     moment_of_inertia(particles.mass[i], particles.radius[i]), dem_.time_step());
   torque_sums_.fluid += given;
   for (int axis = 0; axis < 3; ++axis) particles.torque[i][axis] += given[axis];

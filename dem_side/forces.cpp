@@ -299,7 +299,7 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
 }
 
 Vec3 FluidForces::Found::drag(double mass, double step) const {
-  return moves && beta > 0 ? implicit_drag(beta, pull / beta, others, mass + added, step) : pull;
+  return moves && beta > 0 ? implicit_drag(beta, pull, others, mass + added, step) : pull;
 }
 
 template <bool with_gradients>

@@ -32,11 +32,11 @@ inline double mean_decay(double x) {
   return -std::expm1(-x) / x;
 }
 
-/// Mean drag over a step, N. beta: kg/s; slip: u - v at its start, m/s; other: F, N; mass: m or m + m_a, kg;
-/// step, s.
-inline Vec3 implicit_drag(double beta, const Vec3& slip, const Vec3& other, double mass, double step) {
+/// Mean drag over a step, N. beta: kg/s; pull: beta (u - v) at its start, N; other: F, N; mass: m or m + m_a,
+/// kg; step, s.
+inline Vec3 implicit_drag(double beta, const Vec3& pull, const Vec3& other, double mass, double step) {
   const double phi = mean_decay(beta * step / mass);
-  return beta * phi * slip + (phi - 1) * other;
+  return phi * pull + (phi - 1) * other;
 }
 
 /// n = d ln(beta s)/d ln s, -: a change ds of the slip changes the drag by n beta ds. 1 in Stokes's range, 2
