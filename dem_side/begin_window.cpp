@@ -32,8 +32,8 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* gradients = gradient_rows();
   for (int i = 0; i < particles.count; ++i) {
-    if (own_wake_width_) require_spread(*own_wake_width_, 2 * particles.radius[i]);
-    const double volume = sphere_volume(particles.radius[i]);
+    if (own_wake_width_) require_spread(*own_wake_width_, particles.drag_diameter(i));
+    const double volume = particles.volume(i);
     const CarriedRow before = carried_by(rows, i);
     CarriedRow row;
     for (int k = 0; k < (two ? 2 : 1); ++k) {

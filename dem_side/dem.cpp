@@ -11,12 +11,10 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <limits>
 
 #include "atom.h"
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
-#include "coupler/base/sphere.hpp"
 #include "dem_side/script_advice.hpp"
 #include "dem_side/script_requirements.hpp"
 #include "domain.h"
@@ -103,11 +101,12 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
     liggghts_->input->file(script.c_str());
   });
   require_coupled_scene(*liggghts_, script.string());
+  clumps_ = std::make_unique<Clumps>(*liggghts_);
 
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
     if (!stream_) stream_ = dynamic_cast<LAMMPS_NS::FixInsertStream*>(&fix);
     const std::string_view style = fix.style;
-    if (style == "nve/sphere" || style == "nve") integrated_ |= fix.groupbit;
+    if (style == "nve/sphere" || style == "nve" || style == "multisphere") integrated_ |= fix.groupbit;
     if (style == "nve/sphere") turned_ |= fix.groupbit;
     if (style == "freeze") frozen_ |= fix.groupbit;
     if (style == "gravity") weighed_ |= fix.groupbit;
@@ -153,6 +152,7 @@ void Dem::set_up() {
     std::copy_n(rows[i], 3, atom.f[i]);
     std::copy_n(rows[i] + 3, 3, atom.torque[i]);
   }
+  if (has_clumps()) clumps_->renew_forces();
 }
 
 void Dem::renew_added_forces() {
@@ -164,6 +164,7 @@ void Dem::renew_added_forces() {
   add_forces_(local, added);
   for (int i = 0; i < local.count; ++i)
     for (int axis = 0; axis < 3; ++axis) force[i][axis] += added[i][axis];
+  if (has_clumps()) clumps_->renew_forces();
 }
 
 // "pre no" goes on from where the last step ended: forces and neighbour lists are kept.
@@ -222,8 +223,13 @@ long Dem::step() const {
 
 ParticleArrays Dem::particles() const {
   const LAMMPS_NS::Atom& atom = *liggghts_->atom;
-  return {atom.nlocal, atom.x,      atom.v,     atom.f,   atom.omega,
-          atom.torque, atom.radius, atom.rmass, atom.tag, atom.mask};
+  ParticleArrays all = {atom.nlocal, atom.x,      atom.v,     atom.f,   atom.omega,
+                        atom.torque, atom.radius, atom.rmass, atom.tag, atom.mask};
+  if (!has_clumps()) return all;
+  const Clumps::Spheres spheres = clumps_->spheres();
+  all.mass = spheres.mass;
+  all.of_clump = spheres.of_clump;
+  return all;
 }
 
 double Dem::time_step() const {
@@ -258,25 +264,6 @@ void Dem::set_gravity(const Vec3& gravity) {
 ParticleDomain Dem::domain() const {
   const LAMMPS_NS::Domain& box = *liggghts_->domain;
   return {vec3(box.boxlo), vec3(box.boxhi), {box.xperiodic != 0, box.yperiodic != 0, box.zperiodic != 0}};
-}
-
-ParticleCensus Dem::census() const {
-  const ParticleArrays local = particles();
-  double sums[2] = {static_cast<double>(local.count), 0};
-  constexpr double none = std::numeric_limits<double>::max();
-  double extremes[4] = {-none, 0, -none, -none};  // -smallest, largest radius; -smallest mass/radius, density
-  for (int i = 0; i < local.count; ++i) {
-    sums[1] += sphere_volume(local.radius[i]);
-    extremes[0] = std::max(extremes[0], -local.radius[i]);
-    extremes[1] = std::max(extremes[1], local.radius[i]);
-    extremes[2] = std::max(extremes[2], -local.mass[i] / local.radius[i]);
-    extremes[3] = std::max(extremes[3], -local.mass[i] / sphere_volume(local.radius[i]));
-  }
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, world_), "MPI_Allreduce");
-  check_mpi(MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, world_), "MPI_Allreduce");
-  const long count = std::lround(sums[0]);
-  if (count == 0) return {};
-  return {count, -2 * extremes[0], 2 * extremes[1], sums[1], -extremes[2] / (6 * pi), -extremes[3]};
 }
 
 bool Dem::inserts_particles() const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coupler/base/vec3.hpp"
+#include "dem_side/clumps.hpp"
 #include "dem_side/contact_times.hpp"
 #include "dem_side/near_surfaces.hpp"
 #include "dem_side/particle_arrays.hpp"
@@ -37,6 +38,7 @@ struct ParticleCensus {
   double solid_volume = 0;                    // m3
   double lightest_response = 0;               // smallest mass/(3 pi diameter), kg/m; 0 without particles
   double lowest_density = 0;                  // kg/m3; 0 without particles
+  long whole = 0;                             // spheres by themselves, and clumps
 };
 
 /// Owner of one LIGGGHTS instance that has read a user's script.
@@ -113,11 +115,13 @@ class Dem {
   void set_gravity(const Vec3& gravity);
   Vec3 gravity() const { return gravity_.value_or(script_gravity()); }
   ParticleDomain domain() const;
-  ParticleCensus census() const;                    // collective
-  bool inserts_particles() const;                   // the script has an insertion that is not over yet
-  std::vector<std::string> moved_surfaces() const;  // fixes by which one moves, or counts as moving
-  bool has_surfaces() const;                        // fix mesh/surface
-  std::vector<Vec3> surface_corners() const;        // of this rank's triangles, three for each, m
+  ParticleCensus census() const;                      // collective
+  bool has_clumps() const { return bool(*clumps_); }  // fix multisphere
+  long whole_particles() const;                       // spheres by themselves, and clumps, of this rank
+  bool inserts_particles() const;                     // the script has an insertion that is not over yet
+  std::vector<std::string> moved_surfaces() const;    // fixes by which one moves, or counts as moving
+  bool has_surfaces() const;                          // fix mesh/surface
+  std::vector<Vec3> surface_corners() const;          // of this rank's triangles, three for each, m
   long inserted() const;   // particles that its insertions have put in so far, all ranks
   long taken_out() const;  // particles that its outlets (fix massflow/mesh) have deleted so far
 
@@ -158,6 +162,7 @@ class Dem {
   std::filesystem::path script_, log_;
   std::unique_ptr<LAMMPS_NS::LAMMPS> liggghts_;
   AddForces add_forces_;
+  std::unique_ptr<Clumps> clumps_;
   std::optional<Vec3> gravity_;
   bool continued_;
   LAMMPS_NS::FixInsertStream* stream_ = nullptr;                // the first of the script; all share its rows

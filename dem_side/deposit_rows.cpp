@@ -26,20 +26,20 @@ std::function<BulkParticles(int)> FluidForces::contributions(int k) const {
           gradients = gradient_rows()](int i) {
     const CarriedRow& row = carried_by(rows, i);
     const CarriedFluid& fluid = row.fluid[k];
-    const double radius = particles.radius[i], mass = particles.mass[i];
+    const double volume = particles.volume(i), mass = particles.mass[i];
     const double beta = mean_drag_factor(row, k), tangent = mean_drag_tangent(row, k);
     const double other = mean_drag_tangent(row, 1 - k);
     const double held = held_share(row, i);
-    const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
+    const double added = added_mass(row, 0, volume) + added_mass(row, 1, volume);
     const double response = drag_response(tangent, mass, window_, held, added, other);
     BulkParticles here;
-    here.solid_volume = row.share(k) * sphere_volume(radius);
+    here.solid_volume = row.share(k) * volume;
     here.solid_flux = here.solid_volume * (window_ > 0 ? row.path / window_ : vec3(particles.velocity[i]));
     if (moved_by_forces(i)) {
       const double inertia = mass + added;
       const double theta = inertial_share(tangent + other, inertia, window_);
       // Added mass: grad p and rho Du/Dt push alike.
-      const double push = (1 + parameters_.added_mass) * sphere_volume(radius) / inertia;
+      const double push = (1 + parameters_.added_mass) * volume / inertia;
       here.pressure_mobility = theta * here.solid_volume * push;
       here.following_volume = (1 - theta) * here.solid_volume;
       here.free_response = drag_response(tangent, mass, window_, 0, added, other);
@@ -65,8 +65,8 @@ std::function<BulkParticles(int)> FluidForces::expected_contributions(int k) con
           contribution = contributions(k)](int i) {
     BulkParticles expected = contribution(i);
     const CarriedRow& row = carried_by(rows, i);
-    const double radius = particles.radius[i];
-    const double added = added_mass(row, 0, radius) + added_mass(row, 1, radius);
+    const double volume = particles.volume(i);
+    const double added = added_mass(row, 0, volume) + added_mass(row, 1, volume);
     const double secant = drag_response(mean_drag_factor(row, k), particles.mass[i], window_,
                                         held_share(row, i), added, mean_drag_factor(row, 1 - k));
     expected.drag_impulse = {};
@@ -88,7 +88,7 @@ std::function<Support(int)> FluidForces::support(int k) const {
     if (gradients) others += carried_by<CarriedGradientsRow>(gradients, i).fluid[k].stress_force;
     if (moves) others += parameters_.constant;
     if (dem_.has_weight(particles.mask[i])) others += particles.mass[i] * gravity;
-    const double added = added_mass(row, 0, particles.radius[i]) + added_mass(row, 1, particles.radius[i]);
+    const double added = added_mass(row, 0, particles.volume(i)) + added_mass(row, 1, particles.volume(i));
     return Support{share * row.contacts.impulse, fluid.drag_impulse,
                    window_ * (share * others + fluid.left_over_force),
                    drag_response(mean_drag_tangent(row, k), particles.mass[i], window_, moves ? 0 : 1, added,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/closures/lift.hpp"
 #include "coupler/closures/spin_lift.hpp"
 #include "coupler/config/enum_names.hpp"
@@ -31,6 +34,18 @@ constexpr Vec3 WindowImpulses::*window_impulses[] = {
     &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
     &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
 
+void require_known_for_clumps(const ForceParameters& parameters) {
+  for (const auto& [named, force] : {std::pair(parameters.lift != LiftLaw::none, "lift"),
+                                     {parameters.spin_lift != SpinLiftLaw::none, "spin_lift"},
+                                     {parameters.torque, "torque"},
+                                     {parameters.history, "history"},
+                                     {parameters.lubrication.has_value(), "lubrication"}})
+    if (named)
+      throw InputError(fmt::format(
+          "forces: {} is known for spheres alone, and the script has clumps (fix multisphere): leave it out",
+          force));
+}
+
 void store(double* components, const Vec3& vector) {
   components[0] = vector.x;
   components[1] = vector.y;
@@ -40,6 +55,7 @@ void store(double* components, const Vec3& vector) {
 }  // namespace
 
 FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem), parameters_(parameters) {
+  if (dem_.has_clumps()) require_known_for_clumps(parameters);
   dem_.add_particle_rows(rows_name, row_width<CarriedRow>());
   if (need_gradients(parameters))
     dem_.add_particle_rows(gradient_rows_name, row_width<CarriedGradientsRow>());
@@ -185,10 +201,11 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   step.torque = torque_ && !half_step_ ? &*torque_ : nullptr;
   step.history = history_ && !half_step_ ? &*history_ : nullptr;
   if (step.history) step.history->begin_step();
-  if (lubrication_) {
+  if (lubrication_ || dem_.has_clumps()) {
     std::vector<Found> all;
     for (int i = 0; i < particles.count; ++i) all.push_back(find_forces<with_gradients>(drag_law, step, i));
-    bear_films(step, all);
+    if (lubrication_) bear_films(step, all);
+    if (dem_.has_clumps()) move_as_clumps(step, all);
     for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
   } else {
     for (int i = 0; i < particles.count; ++i) {
@@ -205,7 +222,8 @@ template <bool with_gradients, class Drag>
 FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step, int i) {
   const ParticleArrays& particles = step.particles;
   CarriedRow& row = carried_by(step.rows, i);
-  const double mass = particles.mass[i], radius = particles.radius[i], length = step.length;
+  const double mass = particles.mass[i], volume = particles.volume(i), length = step.length;
+  const double diameter = particles.drag_diameter(i), drag_share = particles.drag_share(i);
   const Vec3 velocity = vec3(particles.velocity[i]);
   const Dem::Stream stream = dem_.stream(i);
   const bool released = stream.releases && !half_step_;  // set-up is after the release
@@ -215,7 +233,7 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
   const bool heavy = dem_.has_weight(particles.mask[i]);
   const Vec3 weight = heavy ? mass * step.gravity : Vec3{}, constant = parameters_.constant;
   const Vec3 weight_of_script = heavy ? mass * step.of_script : Vec3{};  // LIGGGHTS has added it
-  const Vec3 contact = vec3(particles.force[i]) - weight_of_script;
+  const Vec3 contact = vec3(particles.force[i]) - (particles.in_clump(i) ? Vec3{} : weight_of_script);
   found.own = constant + (weight - weight_of_script);
   found.others = contact + weight + constant;
   found.touches = touches(contact, weight_of_script);
@@ -238,12 +256,13 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
   if (half_step_ && !moves) {  // what it gets in whole steps is all that it gets
     for (int k = 0; k < 2; ++k)
       if (row.feels(k))
-        row.fluid[k].drag_factor_sum += row.share(k) * drag_factor(drag_law, row.fluid[k], 2 * radius,
-                                                                   norm(row.fluid[k].velocity - velocity));
+        row.fluid[k].drag_factor_sum +=
+            drag_share * row.share(k) *
+            drag_factor(drag_law, row.fluid[k], diameter, norm(row.fluid[k].velocity - velocity));
     return found;
   }
   found.in_fluid = true;
-  const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, radius, length);
+  const double wetted = half_step_ ? 0 : move_surface(row.surface, velocity, particles.radius[i], length);
   const double late = half_step_ ? 0 : std::min(1.0, row.waited / length);
   row.waited -= late * length;
   FluidTorque::Grip grip;
@@ -258,22 +277,22 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
     Found::Part& part = found.parts[k];
     const double share = row.share(k);
     part.slip = fluid.velocity - velocity;
-    part.beta = share * drag_factor(drag_law, fluid, 2 * radius, norm(part.slip));
+    part.beta = drag_share * share * drag_factor(drag_law, fluid, diameter, norm(part.slip));
     fluid.drag_factor_sum += part.beta;
     found.steady += share * fluid.pressure_force;
     step.sums.pressure += share * fluid.pressure_force;
     part.overdue = late * share * fluid.pressure_force;
     if constexpr (with_gradients) {
       const CarriedGradients& gradients = carried_by<CarriedGradientsRow>(step.gradients, i).fluid[k];
-      part.added = added_mass(row, k, radius);
-      part.across = share * (lift(fluid, gradients, 2 * radius, part.slip) +
-                             spin_lift(fluid, gradients, 2 * radius, vec3(particles.spin[i]), part.slip));
+      part.added = added_mass(row, k, volume);
+      part.across = share * (lift(fluid, gradients, diameter, part.slip) +
+                             spin_lift(fluid, gradients, diameter, vec3(particles.spin[i]), part.slip));
       if (step.torque)
         step.torque->add_fluid(grip, particles, i, share, fluid.density, fluid.viscosity,
                                gradients.vorticity);
       if (step.history && k == 0) {
         const HistoryForce::Memory past =
-            step.history->recall(i, 2 * radius, fluid.density, fluid.viscosity, norm(part.slip));
+            step.history->recall(i, diameter, fluid.density, fluid.viscosity, norm(part.slip));
         part.across += past.force;
         part.added += share * past.inertia;
       }
@@ -283,8 +302,8 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
           late * (share * gradients.stress_force + part.added * (gradients.acceleration - 1 / mass * weight));
       accelerated += part.added * gradients.acceleration;
       if (k == 0 && wetted > 0)
-        part.beta += parameters_.added_mass * (fluid.density - row.fluid[1].density) * sphere_volume(radius) *
-                     wetted / length;
+        part.beta +=
+            parameters_.added_mass * (fluid.density - row.fluid[1].density) * volume * wetted / length;
     }
     found.beta += part.beta;
     found.added += part.added;

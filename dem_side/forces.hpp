@@ -177,6 +177,7 @@ class FluidForces {
   template <bool with_gradients, class Drag>
   Found find_forces(const Drag& drag_law, DemStep& step, int i);
   void bear_films(DemStep& step, std::vector<Found>& all);
+  void move_as_clumps(DemStep& step, std::vector<Found>& all);
   /// What is to be added to LIGGGHTS's force, N.
   template <bool with_gradients>
   Vec3 force_on(DemStep& step, int i, const Found& found);
@@ -190,8 +191,8 @@ class FluidForces {
   static double mean_drag_tangent(const CarriedRow& row, int k);
   bool moved_by_forces(int i) const;                                      // local particle i, at present
   double held_share(const CarriedRow& row, int i) const;                  // of the window, in contact
-  double added_mass(const CarriedRow& row, int k, double radius) const {  // kg
-    return parameters_.added_mass * row.share(k) * row.fluid[k].density * sphere_volume(radius);
+  double added_mass(const CarriedRow& row, int k, double volume) const {  // kg
+    return parameters_.added_mass * row.share(k) * row.fluid[k].density * volume;
   }
   double* const* gradient_rows() const;  // nullptr when no force needs them
 

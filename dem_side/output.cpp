@@ -13,7 +13,7 @@ ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double w
     Vec3 contact;
     if (dem.moves(particles.mask[i]) && !dem.stream(i).carries) {
       contact = vec3(particles.force[i]) - vec3(fluid_force[i]);
-      if (dem.has_weight(particles.mask[i])) contact -= particles.mass[i] * gravity;
+      if (dem.has_weight(particles.mask[i]) && !particles.in_clump(i)) contact -= particles.mass[i] * gravity;
     }
     frame.id.push_back(particles.id[i]);
     frame.position.push_back(vec3(particles.position[i]));

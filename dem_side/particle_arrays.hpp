@@ -5,6 +5,7 @@
 
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
+#include "dem_side/clumps.hpp"
 
 namespace demvof {
 
@@ -12,15 +13,22 @@ namespace demvof {
 /// and ids of ghosts stand behind them.
 struct ParticleArrays {
   int count = 0;
-  double* const* position = nullptr;    // m
-  double* const* velocity = nullptr;    // m/s, at the same time as the position
-  double* const* force = nullptr;       // N; during a step: what has been added up so far
-  const double* const* spin = nullptr;  // rad/s, at the same time as the velocity
-  double* const* torque = nullptr;      // N m; as the force
-  const double* radius = nullptr;       // m
-  const double* mass = nullptr;         // kg
-  const int* id = nullptr;              // unique over all ranks
-  const int* mask = nullptr;            // LIGGGHTS group bits
+  double* const* position = nullptr;        // m
+  double* const* velocity = nullptr;        // m/s, at the same time as the position
+  double* const* force = nullptr;           // N; during a step: what has been added up so far
+  const double* const* spin = nullptr;      // rad/s, at the same time as the velocity
+  double* const* torque = nullptr;          // N m; as the force
+  const double* radius = nullptr;           // m
+  const double* mass = nullptr;             // kg; of a sphere of a clump its share
+  const int* id = nullptr;                  // unique over all ranks
+  const int* mask = nullptr;                // LIGGGHTS group bits
+  const SphereOfClump* of_clump = nullptr;  // nullptr: there are no clumps
+
+  bool in_clump(int i) const { return of_clump && of_clump[i].clump >= 0; }
+  double volume(int i) const { return of_clump ? of_clump[i].volume : sphere_volume(radius[i]); }  // m3
+  /// Of the sphere whose drag it has a share of, m; and that share, -.
+  double drag_diameter(int i) const { return of_clump ? of_clump[i].diameter : 2 * radius[i]; }
+  double drag_share(int i) const { return of_clump ? of_clump[i].share : 1; }
 };
 
 inline Vec3 vec3(const double* components) {
@@ -34,6 +42,12 @@ inline std::vector<Vec3> positions(const ParticleArrays& particles) {
 }
 inline std::vector<double> radii(const ParticleArrays& particles) {
   return {particles.radius, particles.radius + particles.count};
+}
+/// Of what displaces the fluid as a whole: a sphere, or one of its clump's volume, m.
+inline std::vector<double> whole_radii(const ParticleArrays& particles) {
+  std::vector<double> result(particles.count);
+  for (int i = 0; i < particles.count; ++i) result[i] = 0.5 * particles.drag_diameter(i);
+  return result;
 }
 
 }  // namespace demvof

@@ -32,7 +32,7 @@ std::string objection(const ParticleArrays& all, int i) {
   if (!finite(all.spin[i])) return "its angular velocity is not a number";
   const double radius = all.radius[i];
   if (!(radius > 0) || !std::isfinite(radius)) return fmt::format("its diameter is {:g} m", 2 * radius);
-  const double density = all.mass[i] / sphere_volume(radius);
+  const double density = all.mass[i] / all.volume(i);
   if (!(density >= lowest_density && density <= highest_density))
     return fmt::format("its density is {:g} kg/m3; give {:g} to {:g}", density, lowest_density,
                        highest_density);

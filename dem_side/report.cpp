@@ -45,8 +45,12 @@ Vec3 half_step_momentum(const Dem& dem) {
   Vec3 momentum;
   for (int i = 0; i < particles.count; ++i)
     if (dem.moves(particles.mask[i])) {
-      momentum += particles.mass[i] * vec3(particles.velocity[i]);
+      const bool clump = particles.in_clump(i);
+      const double mass = particles.mass[i];
+      momentum += mass * (clump ? particles.of_clump[i].velocity : vec3(particles.velocity[i]));
       if (!dem.stream(i).carries) momentum += 0.5 * dem.time_step() * vec3(particles.force[i]);
+      if (clump && dem.has_weight(particles.mask[i]))  // which LIGGGHTS gives the whole
+        momentum += 0.5 * dem.time_step() * mass * dem.script_gravity();
     }
   reduce(&momentum.x, sizeof(Vec3), MPI_SUM, dem.world());
   return momentum;
@@ -54,7 +58,7 @@ Vec3 half_step_momentum(const Dem& dem) {
 
 Report::Report(const Dem& dem)
     : dem_(dem),
-      count_(dem.census().count),
+      count_(dem.census().whole),
       inserted_before_(dem.inserted()),
       left_before_(dem.taken_out()) {}
 
@@ -77,12 +81,12 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
 
   Sums sums;
   Extremes extremes{{lowest, lowest, lowest}, 0};
-  sums.count = particles.count;
+  sums.count = static_cast<double>(dem_.whole_particles());
   for (int i = 0; i < particles.count; ++i) {
     const double mass = particles.mass[i];
     const Vec3 position = vec3(particles.position[i]), velocity = vec3(particles.velocity[i]);
     sums.mass += mass;
-    if (!averaging.outside(i)) sums.solid_volume += sphere_volume(particles.radius[i]);
+    if (!averaging.outside(i)) sums.solid_volume += particles.volume(i);
     sums.kinetic_energy += 0.5 * mass * dot(velocity, velocity);
     sums.potential_energy -= mass * dot(gravity, position);
     for (int axis = 0; axis < 3; ++axis)

@@ -123,7 +123,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   run_stage().set("handshake");
   ParticleEnd link(world, grid.cell_count(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
-  const auto weigh = [&] { averaging.weigh(positions(dem.particles()), radii(dem.particles())); };
+  const auto weigh = [&] { averaging.weigh(positions(dem.particles()), whole_radii(dem.particles())); };
   weigh();
   averaging.in(0).deposit(forces.contributions());
   link.handshake(handshake_items(version(), configuration_hash(parameters), dem.script_gravity(), options.out,

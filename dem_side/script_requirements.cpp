@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "atom.h"
+#include "comm.h"
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/sphere.hpp"
@@ -25,8 +26,8 @@ bool starts_with(std::string_view text, std::string_view begin) {
 
 // What stands in the way of following a fix's particles; empty: nothing.
 std::string_view objection(std::string_view style) {
-  if (starts_with(style, "multisphere") || starts_with(style, "rigid") || style == "concave")
-    return "particles made of several spheres cannot be coupled yet; use single spheres";
+  if (starts_with(style, "rigid") || style == "concave" || style == "multisphere/break")
+    return "clumps are coupled as fix multisphere makes them; use that";
   if (starts_with(style, "couple/cfd"))
     return "dem_side exchanges with the fluid itself; remove the line (its forces: 'forces' in the case "
            "file)";
@@ -46,6 +47,18 @@ std::string_view objection(std::string_view style) {
            "before the script ends";
   if (starts_with(style, "nve/") && style != "nve/sphere" && style != "nve/noforce")
     return "its particles do not move by the forces on them alone; use fix nve/sphere";
+  return {};
+}
+
+// The same in a script with clumps.
+std::string_view objection_beside_clumps(const LAMMPS_NS::Fix& fix, const LAMMPS_NS::Fix& clumps) {
+  constexpr int all = 1;  // group bit
+  const std::string_view style = fix.style;
+  if ((style == "nve/sphere" || style == "nve") && (fix.igroup == clumps.igroup || fix.groupbit == all))
+    return "fix multisphere moves these spheres already; remove the line, or give it a group of the spheres "
+           "that belong to no clump";
+  if (style == "insert/stream")
+    return "clumps on their way out of its face are not followed; use insert/rate/region or insert/pack";
   return {};
 }
 
@@ -97,14 +110,23 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
   if (const std::string text = larger_than_their_box(liggghts); !text.empty()) mistake(text);
 
   int integrators = 0, gravities = 0;
+  const LAMMPS_NS::Fix* clumps = nullptr;
+  for (int i = 0; i < liggghts.modify->nfix; ++i)
+    if (std::string_view(liggghts.modify->fix[i]->style) == "multisphere") clumps = liggghts.modify->fix[i];
   for (int i = 0; i < liggghts.modify->nfix; ++i) {
     const LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
     const std::string_view style = fix.style;
-    integrators += style == "nve/sphere" || style == "nve";
+    integrators += style == "nve/sphere" || style == "nve" || style == "multisphere";
     gravities += style == "gravity";
-    if (const auto reason = objection(style); !reason.empty())
-      mistake(fmt::format("fix {} {}: {}", fix.id, style, reason));
+    auto reason = objection(style);
+    if (clumps && reason.empty()) reason = objection_beside_clumps(fix, *clumps);
+    if (!reason.empty()) mistake(fmt::format("fix {} {}: {}", fix.id, style, reason));
   }
+  if (clumps && liggghts.comm->nprocs > 1)
+    mistake(
+        fmt::format("fix {} multisphere: LIGGGHTS follows clumps on one rank only, and loses them on {}: "
+                    "particles.ranks: 1 in the case file",
+                    clumps->id, liggghts.comm->nprocs));
   if (integrators == 0) mistake("nothing moves the particles; add 'fix move_them all nve/sphere'");
   if (gravities > 1) mistake(fmt::format("{} fixes of style gravity; there must be at most one", gravities));
   if (!mistakes.empty()) throw InputError(mistakes);

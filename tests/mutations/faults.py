@@ -22,6 +22,7 @@ THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 HALF = {"^pair.half_submerged$": PAIR}
 FILMS = {r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
+CLUMPS = {r"^mock_dem_clumps\.": ["mock_dem_clumps"]}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
 OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": ["unit_seen_fluid"],
@@ -262,6 +263,16 @@ FAULTS = [
     ("foam_side/project_velocity.cpp", "if (!last) flow.p_rgh", "if (last) flow.p_rgh", THICK),
     ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", SETTLING),
     ("foam_side/predict_momentum.cpp", "flow.source && number > most_of_corrections;", "flow.source && number > 1e30 * most_of_corrections;", THICK),
+    # ---- clumps
+    ("dem_side/clumps.cpp", "pass < 3", "pass < 0", CLUMPS),
+    ("dem_side/clumps.cpp", "fix_->data().reset_forces(true);", "", CLUMPS),
+    ("dem_side/clumps.cpp", "sphere.diameter = std::cbrt(6 * volume / pi);", "", CLUMPS),
+    ("dem_side/clumps.cpp", "masses_[i] = sphere.share * clumps.mass(sphere.clump);", "", CLUMPS),
+    ("dem_side/forces.cpp", "part.beta = drag_share * share *", "part.beta = share *", CLUMPS),
+    ("dem_side/forces.cpp", "(particles.in_clump(i) ? Vec3{} : weight_of_script)", "weight_of_script", CLUMPS),
+    ("dem_side/report.cpp", "0.5 * dem.time_step() * mass * dem.script_gravity()", "dem.time_step() * mass * dem.script_gravity()", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "all[i].others = (particles.mass[i] + all[i].added) / clump.inertia * clump.others;", "", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "contacts.touching += clump.touches && !all[i].touches;", "contacts.touching += 0;", CLUMPS),
     # ---- meshes that move
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/accelerating_walls.cpp", "(U.oldTime().boundaryField()[patch] - wall)", "(wall - wall)", MOVING),

@@ -58,8 +58,9 @@ TEST(ImplicitDrag, IsFirstOrderForNonlinearDrag) {
   const auto error = [&](int steps) {
     double velocity = 0;
     for (int n = 0; n < steps; ++n) {
-      const double drag =
-          demvof::implicit_drag(beta(velocity), {0, 0, -beta(velocity) * velocity}, {0, 0, force}, mass, end / steps).z;
+      const double drag = demvof::implicit_drag(beta(velocity), {0, 0, -beta(velocity) * velocity},
+                                                {0, 0, force}, mass, end / steps)
+                              .z;
       velocity += (force + drag) * end / steps / mass;
     }
     return std::abs(velocity - exact);
@@ -82,7 +83,8 @@ TEST(ImplicitDrag, IsExactWithAddedMass) {
       for (const int steps : {1, 17}) {
         Vec3 velocity = start;
         for (int n = 0; n < steps; ++n) {
-          const Vec3 drag = demvof::implicit_drag(beta, beta * (fluid - velocity), others, inertia, end / steps);
+          const Vec3 drag =
+              demvof::implicit_drag(beta, beta * (fluid - velocity), others, inertia, end / steps);
           const Vec3 mean = (drag + others) / inertia;
           const Vec3 given = drag + added * (acceleration - mean);  // to m itself, with force
           velocity += (given + force) * (end / steps / mass);

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Clumps of LIGGGHTS's fix multisphere in a fluid that a test makes up: two spheres that touch, against exact
+// motions of the whole, and the book-keeping of impulses.
+
+#include <cmath>
+
+#include "coupler/base/errors.hpp"
+#include "dem_side/forces.hpp"
+#include "dem_side/report.hpp"
+#include "tests/mock/dem_fixture.hpp"
+#include "tests/support/mpi_main.hpp"
+
+namespace demvof_test {
+namespace {
+
+using demvof::FluidAtParticle;
+using demvof::FluidForces;
+using demvof::ForceParameters;
+using demvof::half_step_momentum;
+using demvof::WindowImpulses;
+
+constexpr double volume = 2 * bead_volume, mass = 2 * bead_mass;
+const double diameter = bead_diameter * std::cbrt(2.0);  // of the sphere of that volume
+
+/// One clump somewhere between the heights, m, at rest; its mass and moments are given, not found by chance.
+std::string doublet(double step, double lowest, double highest, const std::string& more = gravity) {
+  const double a = bead_diameter / 2, m = bead_mass;
+  const std::string r = std::to_string(1000 * a) + "e-3",
+                    along = std::to_string(1e9 * 0.8 * m * a * a) + "e-9",
+                    across = std::to_string(1e9 * 2.8 * m * a * a) + "e-9";
+  std::string box = empty_box(step);
+  box.insert(box.find("map array") + 9, " sort 0 0");
+  return box +
+         "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n"
+         "fix pair all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 2 "
+         "ntry 100000 "
+         "spheres -" +
+         r + " 0 0 " + r + " " + r + " 0 0 " + r + " type 1 mass " + std::to_string(1e6 * mass) +
+         "e-6 inertia_tensor " + along + " 0 0 " + across + " 0 " + across +
+         " use_density\n"
+         "fix one all particledistribution/discrete 15485867 1 pair 1.0\n"
+         "region room block 0.04 0.06 0.04 0.06 " +
+         std::to_string(lowest) + " " + std::to_string(highest) +
+         " units box\n"
+         "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
+         "once "
+         "overlapcheck yes region room particles_in_region 1\n"
+         "fix move all multisphere\nrun 1\nunfix put\n" +
+         more;
+}
+
+void window(demvof::Dem& dem, FluidForces& forces, const FluidAtParticle& fluid, int steps) {
+  forces.begin_window(std::vector<FluidAtParticle>(dem.particles().count, fluid), steps * dem.time_step());
+  dem.run(steps);
+}
+
+FluidAtParticle water(double density = 1000) {
+  return {{}, {0, 0, -density * 9.81}, density, 1e-3, {}};
+}
+
+TEST(DemClumps, DisplaceTheirVolumeOnce) {
+  Scene scene("clump_volume", doublet(1e-5, 0.2, 0.22));
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  window(*scene.dem, forces, water(), 1);
+  double sum = 0;
+  for (int i = 0; i < 2; ++i) sum += forces.contributions()(i).solid_volume;
+  EXPECT_NEAR(sum / volume, 1, 1e-5);
+  EXPECT_NEAR(scene.dem->census().solid_volume / volume, 1, 1e-5);
+  EXPECT_EQ(scene.dem->census().whole, 1);
+}
+
+// A row of overlapping spheres, small to large: what its fluid does to it has no moment.
+TEST(DemClumps, AreNotTurnedByBuoyancy) {
+  std::string script = empty_box(1e-5);
+  script.insert(script.find("map array") + 9, " sort 0 0");
+  Scene scene(
+      "clump_uneven",
+      script +
+          "fix drop all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 4 "
+          "ntry "
+          "1000000 spheres 0 0 0 2e-3 1e-3 0.5e-3 0 1.8e-3 2e-3 0 0.7e-3 1.2e-3 4e-3 0 0 0.6e-3 type 1\n"
+          "fix one all particledistribution/discrete 15485867 1 drop 1.0\n"
+          "region room block 0.02 0.08 0.02 0.08 0.1 0.3 units box\n"
+          "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
+          "once "
+          "overlapcheck yes region room particles_in_region 3\n"
+          "fix move all multisphere\nrun 1\nunfix put\n" +
+          gravity);
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const Vec3 start = half_step_momentum(*scene.dem);
+  for (int n = 0; n < 10; ++n) window(*scene.dem, forces, {{}, {0, 0, -2500 * 9.81}, 1e-30, 1e-30, {}}, 100);
+  const auto particles = scene.dem->particles();
+  ASSERT_EQ(particles.count, 12);
+  for (int i = 0; i < particles.count; ++i) {
+    EXPECT_GT(particles.of_clump[i].share, 0);
+    EXPECT_LT(norm(demvof::vec3(particles.spin[i])), 1e-6);  // 1 rad/s when shares are the spheres' volumes
+  }
+  EXPECT_LT(norm(half_step_momentum(*scene.dem) - start), 1e-12 * mass);
+}
+
+// In Stokes's range to round-off, as the sphere of its volume.
+TEST(DemClumps, SettleAsTheSphereOfTheirVolume) {
+  const double step = 1e-5, relaxation = 2e-3;
+  Scene scene("clump_settles", doublet(step, 0.2, 0.22));
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const FluidAtParticle syrup{{}, {}, 1e-30, mass / (3 * pi * diameter * relaxation), {}};
+  const double start = half_step_momentum(*scene.dem).z / mass;
+  const int steps = 1000;
+  for (int n = 0; n < 10; ++n) window(*scene.dem, forces, syrup, steps / 10);
+  const double end = -9.81 * relaxation;
+  EXPECT_NEAR(
+      half_step_momentum(*scene.dem).z / mass / (end + (start - end) * std::exp(-steps * step / relaxation)),
+      1, 1e-3);
+}
+
+TEST(DemClumps, StayWhereTheyAreNeutral) {
+  Scene scene("clump_neutral", doublet(1e-5, 0.2, 0.22, gravity));
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const Vec3 start = half_step_momentum(*scene.dem);
+  for (int n = 0; n < 10; ++n) window(*scene.dem, forces, {{}, {0, 0, -2500 * 9.81}, 1e-30, 1e-30, {}}, 100);
+  EXPECT_LT(norm(half_step_momentum(*scene.dem) - start), 1e-5 * mass * 9.81 * 1e-2);
+}
+
+// Through a fall, and through contacts with the floor.
+TEST(DemClumps, KeepTheBooksOfMomentum) {
+  Scene scene("clump_books", doublet(1e-5, 0.005, 0.008));
+  ForceParameters parameters;
+  parameters.added_mass = 0.5;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  Vec3 before = half_step_momentum(*scene.dem);
+  bool touched = false;
+  for (int n = 0; n < 60; ++n) {
+    forces.begin_window(std::vector<FluidAtParticle>(scene.dem->particles().count, water()), 1e-3);
+    if (n == 0) forces.first_half_step();
+    scene.dem->run(100);
+    const WindowImpulses given = forces.impulses();
+    const Vec3 after = half_step_momentum(*scene.dem);
+    EXPECT_LT(norm(after - before - given.drag - given.pressure - given.contact - given.gravity),
+              1e-14 * mass)
+        << n;
+    touched = touched || norm(given.contact) > 0;
+    before = after;
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST(DemClumps, AreRefusedWhereTheyAreNotKnown) {
+  const auto message = [](const std::string& more, const ForceParameters& parameters) -> std::string {
+    try {
+      const Scene scene("clump_refused", doublet(1e-5, 0.2, 0.22, more));
+      const FluidForces forces(*scene.dem, parameters);
+    } catch (const demvof::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("", {}), "");
+  EXPECT_NE(
+      message(integrate, {}).find("fix integrate nve/sphere: fix multisphere moves these spheres already"),
+      std::string::npos);
+  ForceParameters torque;
+  torque.torque = true;
+  EXPECT_NE(message("", torque).find("forces: torque is known for spheres alone"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace demvof_test
