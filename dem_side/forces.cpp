@@ -205,11 +205,13 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     std::vector<Found> all;
     for (int i = 0; i < particles.count; ++i) all.push_back(find_forces<with_gradients>(drag_law, step, i));
     if (lubrication_) bear_films(step, all);
+    for (int i = 0; i < particles.count; ++i) move_alone(step, i, all[i]);
     if (dem_.has_clumps()) move_as_clumps(step, all);
     for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
   } else {
     for (int i = 0; i < particles.count; ++i) {
-      const Found found = find_forces<with_gradients>(drag_law, step, i);
+      Found found = find_forces<with_gradients>(drag_law, step, i);
+      move_alone(step, i, found);
       store(external[i], force_on<with_gradients>(step, i, found));
     }
   }
@@ -321,26 +323,30 @@ Vec3 FluidForces::Found::drag(double mass, double step) const {
   return moves && beta > 0 ? implicit_drag(beta, pull, others, mass + added, step) : pull;
 }
 
+void FluidForces::move_alone(const DemStep& step, int i, Found& found) {
+  const double mass = step.particles.mass[i];
+  found.mean_drag = found.drag(mass, step.length);
+  if (found.moves) found.acceleration = (found.mean_drag + found.others) / (mass + found.added);
+}
+
 template <bool with_gradients>
 Vec3 FluidForces::force_on(DemStep& step, int i, const Found& found) {
   if (!found.in_fluid) return found.moves ? found.own : Vec3{};
   CarriedRow& row = carried_by(step.rows, i);
-  const double mass = step.particles.mass[i];
-  const Vec3 drag = found.drag(mass, step.length);
-  const Vec3 acceleration = found.moves ? (drag + found.others) / (mass + found.added) : Vec3{};
   Vec3 given;  // by the exchange: its reaction goes to the fluid
   for (int k = 0; k < 2; ++k) {
     if (!row.feels(k)) continue;
     const Found::Part& part = found.parts[k];
     // Both fluids see the same mean velocity of the step.
     Vec3 of_fluid =
-        part.beta == found.beta ? drag : part.beta * (part.slip + (drag - found.pull) / found.beta);
+        part.beta == found.beta ? found.mean_drag
+                                : part.beta * (part.slip + (found.mean_drag - found.pull) / found.beta);
     of_fluid += part.overdue;
     if constexpr (with_gradients) {
       CarriedGradients& gradients = carried_by<CarriedGradientsRow>(step.gradients, i).fluid[k];
       if (step.history && k == 0)
-        step.history->remember(i, row.share(0), part.slip, gradients.acceleration - acceleration);
-      const Vec3 other = part.across + part.added * (gradients.acceleration - acceleration);
+        step.history->remember(i, row.share(0), part.slip, gradients.acceleration - found.acceleration);
+      const Vec3 other = part.across + part.added * (gradients.acceleration - found.acceleration);
       gradients.other_impulse += step.length * (other + part.overdue);
       of_fluid += other;
     }

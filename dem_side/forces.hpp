@@ -172,12 +172,14 @@ class FluidForces {
     Vec3 steady;                                // of the fluid, constant in the step
     Vec3 own;                                   // to be added without any fluid
     Vec3 others;                                // than drag
-    Vec3 drag(double mass, double step) const;  // mean of the step
+    Vec3 drag(double mass, double step) const;  // mean of the step, as what they make a particle do
+    Vec3 mean_drag, acceleration;               // that, and what all of it makes
   };
   template <bool with_gradients, class Drag>
   Found find_forces(const Drag& drag_law, DemStep& step, int i);
   void bear_films(DemStep& step, std::vector<Found>& all);
   void move_as_clumps(DemStep& step, std::vector<Found>& all);
+  void move_alone(const DemStep& step, int i, Found& found);
   /// What is to be added to LIGGGHTS's force, N.
   template <bool with_gradients>
   Vec3 force_on(DemStep& step, int i, const Found& found);

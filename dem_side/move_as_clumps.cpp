@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The spheres of a clump have its acceleration: what acts on any of them acts on each by its share of the
-// inertia, and one that touches something holds all of them.
+// The spheres of a clump have one acceleration: what acts on any of them moves the whole, with the drag of all of
+// them, of which each has its own slip's and its part of the change during the step. One that touches something
+// holds all of them.
 
 #include "dem_side/forces.hpp"
 
@@ -9,9 +10,8 @@ namespace demvof {
 void FluidForces::move_as_clumps(DemStep& step, std::vector<Found>& all) {
   const ParticleArrays& particles = step.particles;
   struct Clump {
-    Vec3 others;
-    double inertia = 0;
-    bool touches = false;
+    Found whole;
+    double mass = 0;
   };
   std::vector<Clump> clumps;
   for (int i = 0; i < particles.count; ++i) {
@@ -19,15 +19,28 @@ void FluidForces::move_as_clumps(DemStep& step, std::vector<Found>& all) {
     const auto index = static_cast<std::size_t>(particles.of_clump[i].clump);
     if (index >= clumps.size()) clumps.resize(index + 1);
     Clump& clump = clumps[index];
-    clump.others += all[i].others;
-    clump.inertia += particles.mass[i] + all[i].added;
-    clump.touches = clump.touches || all[i].touches;
+    const Found& sphere = all[i];
+    clump.mass += particles.mass[i];
+    clump.whole.moves = sphere.moves;
+    clump.whole.touches = clump.whole.touches || sphere.touches;
+    clump.whole.beta += sphere.beta;
+    clump.whole.added += sphere.added;
+    clump.whole.pull += sphere.pull;
+    clump.whole.others += sphere.others;
+  }
+  for (Clump& clump : clumps) {
+    Found& whole = clump.whole;
+    whole.mean_drag = whole.drag(clump.mass, step.length);
+    if (whole.moves) whole.acceleration = (whole.mean_drag + whole.others) / (clump.mass + whole.added);
   }
   for (int i = 0; i < particles.count; ++i) {
     if (!particles.in_clump(i)) continue;
-    const Clump& clump = clumps[static_cast<std::size_t>(particles.of_clump[i].clump)];
-    all[i].others = (particles.mass[i] + all[i].added) / clump.inertia * clump.others;
-    carried_by(step.rows, i).contacts.touching += clump.touches && !all[i].touches;
+    const Found& whole = clumps[static_cast<std::size_t>(particles.of_clump[i].clump)].whole;
+    Found& sphere = all[i];
+    sphere.mean_drag = sphere.pull;
+    if (whole.beta > 0) sphere.mean_drag += sphere.beta / whole.beta * (whole.mean_drag - whole.pull);
+    sphere.acceleration = whole.acceleration;
+    carried_by(step.rows, i).contacts.touching += whole.touches && !sphere.touches;
   }
 }
 

@@ -23,7 +23,8 @@ constexpr double volume = 2 * bead_volume, mass = 2 * bead_mass;
 const double diameter = bead_diameter * std::cbrt(2.0);  // of the sphere of that volume
 
 /// One clump somewhere between the heights, m, at rest; its mass and moments are given, not found by chance.
-std::string doublet(double step, double lowest, double highest, const std::string& more = gravity) {
+std::string doublet(double step, double lowest, double highest, const std::string& more = gravity,
+                    const std::string& kept = "") {
   const double a = bead_diameter / 2, m = bead_mass;
   const std::string r = std::to_string(1000 * a) + "e-3",
                     along = std::to_string(1e9 * 0.8 * m * a * a) + "e-9",
@@ -37,7 +38,7 @@ std::string doublet(double step, double lowest, double highest, const std::strin
          "spheres -" +
          r + " 0 0 " + r + " " + r + " 0 0 " + r + " type 1 mass " + std::to_string(1e6 * mass) +
          "e-6 inertia_tensor " + along + " 0 0 " + across + " 0 " + across +
-         " use_density\n"
+         " use_density" + kept + "\n"
          "fix one all particledistribution/discrete 15485867 1 pair 1.0\n"
          "region room block 0.04 0.06 0.04 0.06 " +
          std::to_string(lowest) + " " + std::to_string(highest) +
@@ -116,6 +117,22 @@ TEST(DemClumps, SettleAsTheSphereOfTheirVolume) {
       1, 1e-3);
 }
 
+// One sphere is in syrup, the other in nothing, and the drag is stiff: 20 times over in a step. The whole comes
+// to what all of its weight and the drag of the half make.
+TEST(DemClumps, OneSphereDragsTheWhole) {
+  const double step = 1e-5, relaxation = step / 20;
+  Scene scene("clump_half", doublet(step, 0.2, 0.22, gravity, " tflag off off off"));
+  FluidForces forces(*scene.dem, ForceParameters{});
+  scene.dem->set_up();
+  const FluidAtParticle syrup{{}, {}, 1e-30, mass / (3 * pi * diameter * relaxation), {}};
+  const FluidAtParticle nothing{{}, {}, 1e-30, 1e-30, {}};
+  for (int n = 0; n < 3; ++n) {
+    forces.begin_window(std::vector<FluidAtParticle>{syrup, nothing}, 10 * step);
+    scene.dem->run(10);
+  }
+  EXPECT_NEAR(half_step_momentum(*scene.dem).z / mass / (-9.81 * 2 * relaxation), 1, 0.01);
+}
+
 TEST(DemClumps, StayWhereTheyAreNeutral) {
   Scene scene("clump_neutral", doublet(1e-5, 0.2, 0.22, gravity));
   FluidForces forces(*scene.dem, ForceParameters{});
@@ -144,6 +161,7 @@ TEST(DemClumps, KeepTheBooksOfMomentum) {
               1e-14 * mass)
         << n;
     touched = touched || norm(given.contact) > 0;
+    EXPECT_EQ(forces.carried(0).contacts.touching, forces.carried(1).contacts.touching);
     before = after;
   }
   EXPECT_TRUE(touched);

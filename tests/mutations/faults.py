@@ -271,8 +271,9 @@ FAULTS = [
     ("dem_side/forces.cpp", "part.beta = drag_share * share *", "part.beta = share *", CLUMPS),
     ("dem_side/forces.cpp", "(particles.in_clump(i) ? Vec3{} : weight_of_script)", "weight_of_script", CLUMPS),
     ("dem_side/report.cpp", "0.5 * dem.time_step() * mass * dem.script_gravity()", "dem.time_step() * mass * dem.script_gravity()", CLUMPS),
-    ("dem_side/move_as_clumps.cpp", "all[i].others = (particles.mass[i] + all[i].added) / clump.inertia * clump.others;", "", CLUMPS),
-    ("dem_side/move_as_clumps.cpp", "contacts.touching += clump.touches && !all[i].touches;", "contacts.touching += 0;", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "sphere.acceleration = whole.acceleration;", "", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "sphere.beta / whole.beta * (whole.mean_drag - whole.pull)", "Vec3{}", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "contacts.touching += whole.touches && !sphere.touches;", "contacts.touching += 0;", CLUMPS),
     # ---- meshes that move
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/accelerating_walls.cpp", "(U.oldTime().boundaryField()[patch] - wall)", "(wall - wall)", MOVING),
