@@ -338,9 +338,9 @@ Vec3 FluidForces::force_on(DemStep& step, int i, const Found& found) {
     if (!row.feels(k)) continue;
     const Found::Part& part = found.parts[k];
     // Both fluids see the same mean velocity of the step.
-    Vec3 of_fluid =
-        part.beta == found.beta ? found.mean_drag
-                                : part.beta * (part.slip + (found.mean_drag - found.pull) / found.beta);
+    Vec3 of_fluid = part.beta == found.beta
+                        ? found.mean_drag
+                        : part.beta * (part.slip + (found.mean_drag - found.pull) / found.beta);
     of_fluid += part.overdue;
     if constexpr (with_gradients) {
       CarriedGradients& gradients = carried_by<CarriedGradientsRow>(step.gradients, i).fluid[k];

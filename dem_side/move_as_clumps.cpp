@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The spheres of a clump have one acceleration: what acts on any of them moves the whole, with the drag of all of
-// them, of which each has its own slip's and its part of the change during the step. One that touches something
-// holds all of them.
+// The spheres of a clump have one acceleration: what acts on any of them moves the whole, with the drag of
+// all of them, of which each has its own slip's and its part of the change during the step. One that touches
+// something holds all of them.
 
 #include "dem_side/forces.hpp"
 

@@ -37,8 +37,8 @@ std::string doublet(double step, double lowest, double highest, const std::strin
          "ntry 100000 "
          "spheres -" +
          r + " 0 0 " + r + " " + r + " 0 0 " + r + " type 1 mass " + std::to_string(1e6 * mass) +
-         "e-6 inertia_tensor " + along + " 0 0 " + across + " 0 " + across +
-         " use_density" + kept + "\n"
+         "e-6 inertia_tensor " + along + " 0 0 " + across + " 0 " + across + " use_density" + kept +
+         "\n"
          "fix one all particledistribution/discrete 15485867 1 pair 1.0\n"
          "region room block 0.04 0.06 0.04 0.06 " +
          std::to_string(lowest) + " " + std::to_string(highest) +
@@ -48,6 +48,26 @@ std::string doublet(double step, double lowest, double highest, const std::strin
          "overlapcheck yes region room particles_in_region 1\n"
          "fix move all multisphere\nrun 1\nunfix put\n" +
          more;
+}
+
+/// A row of overlapping spheres, large to small, on its side.
+std::string uneven(double lowest, double highest, int clumps, const std::string& kept = "") {
+  std::string box = empty_box(1e-5);
+  box.insert(box.find("map array") + 9, " sort 0 0");
+  return box +
+         "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n"
+         "fix drop all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 4 "
+         "ntry 1000000 "
+         "spheres 0 0 0 2e-3 1e-3 0.5e-3 0 1.8e-3 2e-3 0 0.7e-3 1.2e-3 4e-3 0 0 0.6e-3 type 1" +
+         kept +
+         "\nfix one all particledistribution/discrete 15485867 1 drop 1.0\n"
+         "region room block 0.02 0.08 0.02 0.08 " +
+         std::to_string(lowest) + " " + std::to_string(highest) +
+         " units box\n"
+         "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
+         "once "
+         "overlapcheck yes region room particles_in_region " +
+         std::to_string(clumps) + "\nfix move all multisphere\nrun 1\nunfix put\n" + gravity;
 }
 
 void window(demvof::Dem& dem, FluidForces& forces, const FluidAtParticle& fluid, int steps) {
@@ -71,23 +91,9 @@ TEST(DemClumps, DisplaceTheirVolumeOnce) {
   EXPECT_EQ(scene.dem->census().whole, 1);
 }
 
-// A row of overlapping spheres, small to large: what its fluid does to it has no moment.
+// What its fluid does to it has no moment.
 TEST(DemClumps, AreNotTurnedByBuoyancy) {
-  std::string script = empty_box(1e-5);
-  script.insert(script.find("map array") + 9, " sort 0 0");
-  Scene scene(
-      "clump_uneven",
-      script +
-          "fix drop all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 4 "
-          "ntry "
-          "1000000 spheres 0 0 0 2e-3 1e-3 0.5e-3 0 1.8e-3 2e-3 0 0.7e-3 1.2e-3 4e-3 0 0 0.6e-3 type 1\n"
-          "fix one all particledistribution/discrete 15485867 1 drop 1.0\n"
-          "region room block 0.02 0.08 0.02 0.08 0.1 0.3 units box\n"
-          "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
-          "once "
-          "overlapcheck yes region room particles_in_region 3\n"
-          "fix move all multisphere\nrun 1\nunfix put\n" +
-          gravity);
+  Scene scene("clump_uneven", uneven(0.1, 0.3, 3));
   FluidForces forces(*scene.dem, ForceParameters{});
   scene.dem->set_up();
   const Vec3 start = half_step_momentum(*scene.dem);
@@ -117,8 +123,8 @@ TEST(DemClumps, SettleAsTheSphereOfTheirVolume) {
       1, 1e-3);
 }
 
-// One sphere is in syrup, the other in nothing, and the drag is stiff: 20 times over in a step. The whole comes
-// to what all of its weight and the drag of the half make.
+// One sphere is in syrup, the other in nothing, and the drag is stiff: 20 times over in a step. The whole
+// comes to what all of its weight and the drag of the half make.
 TEST(DemClumps, OneSphereDragsTheWhole) {
   const double step = 1e-5, relaxation = step / 20;
   Scene scene("clump_half", doublet(step, 0.2, 0.22, gravity, " tflag off off off"));
@@ -165,6 +171,23 @@ TEST(DemClumps, KeepTheBooksOfMomentum) {
     before = after;
   }
   EXPECT_TRUE(touched);
+}
+
+// On its largest sphere: that holds all of them, and none is accelerated.
+TEST(DemClumps, RestAsAWhole) {
+  Scene scene("clump_rests", uneven(0.001, 0.006, 1, " tflag off off off"));
+  ForceParameters parameters;
+  parameters.added_mass = 0.5;
+  FluidForces forces(*scene.dem, parameters);
+  scene.dem->set_up();
+  for (int n = 0; n < 300; ++n) window(*scene.dem, forces, water(), 100);
+  const double weight = scene.dem->census().solid_volume * 2500 * 9.81;
+  const auto particles = scene.dem->particles();
+  ASSERT_EQ(particles.count, 4);
+  for (int i = 0; i < particles.count; ++i) {
+    EXPECT_EQ(forces.carried(i).contacts.touching, 100);
+    EXPECT_LT(norm(forces.drag_impulse(i)), 1e-6 * weight * 1e-3) << "added mass";
+  }
 }
 
 TEST(DemClumps, AreRefusedWhereTheyAreNotKnown) {
