@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/forces.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
 
-#include "coupler/base/errors.hpp"
 #include "coupler/closures/lift.hpp"
 #include "coupler/closures/spin_lift.hpp"
 #include "coupler/config/enum_names.hpp"
@@ -33,18 +30,6 @@ bool touches(const Vec3& contact, const Vec3& weight) {
 constexpr Vec3 WindowImpulses::*window_impulses[] = {
     &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
     &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
-
-void require_known_for_clumps(const ForceParameters& parameters) {
-  for (const auto& [named, force] : {std::pair(parameters.lift != LiftLaw::none, "lift"),
-                                     {parameters.spin_lift != SpinLiftLaw::none, "spin_lift"},
-                                     {parameters.torque, "torque"},
-                                     {parameters.history, "history"},
-                                     {parameters.lubrication.has_value(), "lubrication"}})
-    if (named)
-      throw InputError(fmt::format(
-          "forces: {} is known for spheres alone, and the script has clumps (fix multisphere): leave it out",
-          force));
-}
 
 void store(double* components, const Vec3& vector) {
   components[0] = vector.x;

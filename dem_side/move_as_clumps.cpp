@@ -3,9 +3,24 @@
 // all of them, of which each has its own slip's and its part of the change during the step. One that touches
 // something holds all of them.
 
+#include <fmt/format.h>
+
+#include "coupler/base/errors.hpp"
 #include "dem_side/forces.hpp"
 
 namespace demvof {
+
+void FluidForces::require_known_for_clumps(const ForceParameters& parameters) {
+  for (const auto& [named, force] : {std::pair(parameters.lift != LiftLaw::none, "lift"),
+                                     {parameters.spin_lift != SpinLiftLaw::none, "spin_lift"},
+                                     {parameters.torque, "torque"},
+                                     {parameters.history, "history"},
+                                     {parameters.lubrication.has_value(), "lubrication"}})
+    if (named)
+      throw InputError(fmt::format(
+          "forces: {} is known for spheres alone, and the script has clumps (fix multisphere): leave it out",
+          force));
+}
 
 void FluidForces::move_as_clumps(DemStep& step, std::vector<Found>& all) {
   const ParticleArrays& particles = step.particles;
