@@ -49,7 +49,7 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
   const ParticleCensus census = dem.census();
   const ContactTimes contacts = dem.contact_times();
   const Vec3 momentum = half_step_momentum(dem);
-  return nlohmann::json{{"particle_count", census.count},
+  return nlohmann::json{{"particle_count", census.whole},
                         {"min_diameter", census.min_diameter},
                         {"max_diameter", census.max_diameter},
                         {"solid_volume", census.solid_volume},

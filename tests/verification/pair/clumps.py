@@ -116,6 +116,8 @@ def falling(demvof, record):
     whole = case("falling", 0.1).run(demvof)
     record.at_most("falling: momentum exchange", whole.results["conservation"]["exchange"], 8e-14)
     record.at_most("falling: lost", whole.results["particles"]["lost"], 0)
+    counts = [whole.results["particles"][when] for when in ("initial", "final")]
+    record.at_most("falling: particles counted at the start and the end, less two clumps", max(abs(n - 2) for n in counts), 0)
     half = case("continued", 0.05)
     half.run(demvof)
     text = (half.folder / "case.yaml").read_text()
