@@ -9,7 +9,6 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 
 from injected import DEMVOF, LONG, RANDOM, Injected, beads_into_water, demvof, main, status
 from pair import Pair, wait_for_signs

@@ -54,7 +54,7 @@ SCENES = {
     "own_windows": (lambda name: case(name, coupling={"window": {"tolerance": 0.01, "shortest": 2.5e-4, "longest": 1e-3}}), (), (1, 1)),
     "concurrent": (lambda name: case(name, coupling={"schedule": "concurrent", "averaging": {"kernel": "diffusion"}}), (), (1, 1)),
     "refined": (lambda name: case(name, sections={"fluid": {"refinement": {"levels": 1}}}), (), (1, 1)),
-    "replaced": (lambda name: case(name, fine=(16, 8, 16), coupling={"phase_interchange": "replacement"},
+    "replaced": (lambda name: case(name, fine=(32, 16, 32), coupling={"phase_interchange": "replacement"},
                                    sections={"fluid": {"refinement": {"levels": 1, "particles": True}}}), (), (1, 1)),
     "moving": (moving, (), (1, 1)),
 }
