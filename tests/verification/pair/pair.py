@@ -47,22 +47,40 @@ def traces(folder):
     return found
 
 
+def activity(session):
+    """Seconds of CPU time that the processes of a session have used, and whether one of them wants a core or the disk."""
+    seconds, wants = 0, False
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (entry / "stat").read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[3]) == session:
+            seconds += (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+            wants = wants or fields[0] in "RD"
+    return seconds, wants
+
+
 def wait_for_signs(process, folder, silence):
-    """Exit code and everything printed, however long it takes. A run that has left no trace in its folder for so many
-    seconds is killed, and the test fails: a busy machine makes a run slow, a fault makes it silent."""
-    seen, time_of_sign = None, time.monotonic()
+    """Exit code and everything printed, however long it takes. A run that leaves no trace in its folder for so many
+    seconds is killed, and the test fails: a busy machine makes a run slow, a fault makes it silent. While it wants a core,
+    the seconds are those that it has got. The process is the first of its session."""
+    seen, silent, looked, used = None, 0, time.monotonic(), 0
     while True:
         try:
             text, _ = process.communicate(timeout=1)
             return process.returncode, text
         except subprocess.TimeoutExpired:
-            now = traces(folder)
-            if now != seen:
-                seen, time_of_sign = now, time.monotonic()
-            elif time.monotonic() - time_of_sign > silence:
-                os.killpg(process.pid, signal.SIGKILL)
-                text, _ = process.communicate()
-                raise AssertionError(f"the run has left no trace in {folder} for {silence} s:\n{text}") from None
+            pass
+        now, (seconds, wants) = time.monotonic(), activity(process.pid)
+        silent += max(0, seconds - used) if wants else now - looked
+        looked, used = now, seconds
+        if (there := traces(folder)) != seen:
+            seen, silent = there, 0
+        if silent > silence:
+            os.killpg(process.pid, signal.SIGKILL)
+            text, _ = process.communicate()
+            raise AssertionError(f"the run has left no trace in {folder} for {silence} s:\n{text}")
 
 
 class Pair:
