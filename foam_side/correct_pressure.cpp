@@ -11,6 +11,7 @@
 
 #include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
 
@@ -88,7 +89,11 @@ void correct_pressure(Flow& flow) {
     else
       update_velocity(flow, h, flow.face_force() - pressure_flux / mobility);
     flow.U.correctBoundaryConditions();
-    if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
+    if (flow.source)
+      correct_by_sources(flow,
+                         1 / system.inverse_diagonal->primitiveField() + flow.source->coefficient.field());
+    else if (extras(flow).sources_of_momentum)
+      extras(flow).sources.correct(flow.U);
   }
   update_face_velocity(flow);
   make_relative(flow, flow.phi);

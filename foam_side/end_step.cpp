@@ -39,7 +39,10 @@ void watch_bounds(Flow& flow) {
 void end_step(Flow& flow) {
   update_total_pressure(flow);
   if (flow.source) accumulate_impulse(flow, *flow.source);
-  if (flow.source && !flow.pressure_system.viscous) note_boundary_stress(flow);
+  if (flow.source && !flow.pressure_system.viscous) {
+    note_boundary_stress(flow);
+    note_sources(flow);
+  }
   keep_books(flow);
   watch_bounds(flow);
   if (!flow.clock.windowed) flow.time.write();

@@ -5,6 +5,8 @@
 //
 // M: mobility of the faces, flux per pressure gradient.
 
+#include <cmath>
+
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -41,6 +43,17 @@ void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField*
   fit_flux(flow, flow.phi, mobility, wanted_rate, flux_solver(flow, wanted_rate == nullptr));
 }
 
+void adjust_outflow(Flow& flow, surfaceScalarField& flux, volScalarField& pressure) {
+  forAll(flux.boundaryField(), patch) {
+    Foam::fvsPatchScalarField& through = flux.boundaryFieldRef()[patch];
+    if (through.coupled()) continue;
+    const scalarField along(Foam::mag(flow.U.boundaryField()[patch]) *
+                            flow.mesh.magSf().boundaryField()[patch]);
+    forAll(through, face) if (std::abs(through[face]) < 1e-14 * along[face]) through[face] = 0;
+  }
+  Foam::adjustPhi(flux, flow.U, pressure);
+}
+
 tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
                              const scalarField* wanted_rate, const Foam::dictionary& solver) {
   Foam::wordList types(flow.p_rgh.boundaryField().size(), Foam::zeroGradientFvPatchScalarField::typeName);
@@ -55,7 +68,7 @@ tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surface
   flow.mesh.setFluxRequired(potential.name());
   if (potential.needReference()) {  // what the walls displace where they move is not to be made up for
     if (!flow.porosity) make_relative(flow, flux);
-    Foam::adjustPhi(flux, flow.U, potential);
+    adjust_outflow(flow, flux, potential);
     if (!flow.porosity) make_absolute(flow, flux);
   }
 

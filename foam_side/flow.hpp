@@ -197,6 +197,10 @@ dimensionedScalar reference_potential(const Foam::uniformDimensionedVectorField&
 /// pcorrFinal.
 void fit_flux(Flow& flow, const surfaceScalarField& mobility, const scalarField* wanted_rate);
 
+/// OpenFOAM's adjustPhi. A wall that slides along itself lets nothing through, not even the last bit of the
+/// product of its velocity and area, of which a closed box at rest would ask where it goes.
+void adjust_outflow(Flow& flow, surfaceScalarField& flux, volScalarField& pressure);
+
 /// The same for any flux of volume. Returns the potential.
 tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surfaceScalarField& mobility,
                              const scalarField* wanted_rate, const Foam::dictionary& solver);

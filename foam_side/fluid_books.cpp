@@ -70,6 +70,7 @@ void enter_boundary(const Flow& flow, double dt, FluidBooks& books) {
   books.boundary_pressure += dt * to_vec3(pressure);
   books.boundary_shear += dt * (books.step_shear + books.explicit_stress);
   books.carried_in += dt * books.step_carried;
+  books.sources += dt * (books.step_sources + books.step_corrections);
 }
 
 void enter_cells(const Flow& flow, double dt, FluidBooks& books) {
@@ -120,13 +121,27 @@ void note_boundary_stress(Flow& flow) {
     const Foam::fvPatchVectorField& at = flow.U.boundaryField()[patch];
     const scalarField mu(flow.rho.boundaryField()[patch] * viscosity().boundaryField()[patch]);
     Foam::vectorField stress(mu * flow.mesh.magSf().boundaryField()[patch] * at.snGrad());
-    if (flow.porosity) stress *= flow.porosity->eps.boundaryField()[patch];
+    if (flow.porosity) stress *= stress_share(flow)().boundaryField()[patch];
     shear += Foam::sum(stress);
     through += Foam::sum(momentum.boundaryCoeffs()[patch] -
                          Foam::cmptMultiply(momentum.internalCoeffs()[patch], at.patchInternalField()()));
   }
   books_of(flow).step_shear = to_vec3(shear);
   books_of(flow).step_carried = to_vec3(through - shear);
+}
+
+void note_sources(Flow& flow) {
+  if (!flow.pressure_system.sources) return;
+  const tmp<volVectorField> force = *flow.pressure_system.sources & flow.U;
+  books_of(flow).step_sources = to_vec3(Foam::sum(flow.mesh.V().field() * force().primitiveField()));
+}
+
+void correct_by_sources(Flow& flow, const scalarField& answer) {
+  if (!extras(flow).sources_of_momentum) return;
+  const Foam::vectorField before(flow.U.primitiveField());
+  extras(flow).sources.correct(flow.U);
+  const Foam::vectorField change(flow.U.primitiveField() - before);
+  books_of(flow).step_corrections = to_vec3(Foam::sum(flow.mesh.V().field() * answer * change));
 }
 
 void keep_books(Flow& flow) {
@@ -142,7 +157,7 @@ FluidBooks take_books(Flow& flow) {
   FluidBooks taken = std::exchange(books_of(flow), FluidBooks{});
   Foam::reduce(taken.liquid_in, Foam::sumOp<double>());
   for (Vec3* part : {&taken.weight, &taken.boundary_pressure, &taken.boundary_shear, &taken.carried_in,
-                     &taken.surface_tension})
+                     &taken.surface_tension, &taken.sources})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   return taken;
 }

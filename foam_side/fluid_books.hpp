@@ -16,7 +16,10 @@ struct FluidBooks {
   Vec3 explicit_stress;      // mu (grad u)^T at the boundary, as the present step's equation has it, N
   Vec3 step_shear;           // at the boundary in the present step, without explicit_stress, N
   Vec3 step_carried;         // what else the present step's equation has there, N
+  Vec3 step_sources;         // of fvOptions in the present step, N
+  Vec3 step_corrections;     // what they gave by changing its velocity, N
   Vec3 weight;               // N s, as the rest
+  Vec3 sources;              // of fvOptions
   Vec3 boundary_pressure;    // total pressure: on the fluid, and through it on the particles
   Vec3 boundary_shear;       // viscous
   Vec3 carried_in;           // momentum of what flows through the boundary
@@ -31,6 +34,13 @@ void note_explicit_stress(Flow& flow, const volScalarField& density);
 
 /// Notes what the step's momentum equation has at the boundary with the present velocity.
 void note_boundary_stress(Flow& flow);
+
+/// Notes what fvOptions give the step's momentum equation with the present velocity. With particles.
+void note_sources(Flow& flow);
+
+/// Lets fvOptions change the velocity, and notes what that takes. answer: force per change of the velocity,
+/// kg/(m3 s).
+void correct_by_sources(Flow& flow, const scalarField& answer);
 
 /// Enters the step that has just been done.
 void keep_books(Flow& flow);

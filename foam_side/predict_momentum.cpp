@@ -22,9 +22,7 @@
 #include "foam_side/pressure_gradient.hpp"
 
 namespace demvof {
-namespace {
 
-/// m above.
 tmp<volScalarField> stress_share(const Flow& flow) {
   const volScalarField& eps = flow.porosity->eps;
   const SuspensionViscosity law = flow.scene.suspension_viscosity;
@@ -37,6 +35,8 @@ tmp<volScalarField> stress_share(const Flow& flow) {
   for (auto& patch : share.ref().boundaryFieldRef()) replace(patch);
   return share;
 }
+
+namespace {
 
 tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
   const volScalarField& eps = flow.porosity->eps;
@@ -67,16 +67,24 @@ void add_sources(Flow& flow, Foam::fvVectorMatrix& momentum) {
   if (!extras(flow).sources_of_momentum) return;
   tmp<Foam::fvVectorMatrix> sources = extras(flow).sources(flow.rho, flow.U);
   if (flow.porosity) sources.ref() *= flow.porosity->eps.internalField();
-  momentum -= sources;
+  momentum -= sources();
+  flow.pressure_system.sources.reset(sources.ptr());
 }
 
-/// Lets fvOptions fix values, and see how the velocity answers to a force on the fluid: eps/(A + C).
+/// Lets fvOptions fix values, and see how the velocity answers to a force on the fluid: eps/(A + C); where
+/// each correction solves the stress with it, eps/(A_0 + C).
 void constrain(Flow& flow, Foam::fvVectorMatrix& momentum) {
   if (!extras(flow).sources_of_momentum) return;
   extras(flow).sources.constrain(momentum);
   if (!flow.source) return;
   Foam::fvVectorMatrix answering(momentum);
-  answering.diag() += flow.mesh.V().field() * flow.source->coefficient.field();
+  const scalarField& volume = flow.mesh.V();
+  if (flow.pressure_system.viscous) {
+    answering = Foam::fvVectorMatrix(flow.U, momentum.dimensions());
+    answering.diag() = volume * flow.rho.primitiveField() / flow.time.deltaTValue();
+    if (flow.porosity) answering.diag() *= flow.porosity->eps.primitiveField();
+  }
+  answering.diag() += volume * flow.source->coefficient.field();
   if (flow.porosity) answering.diag() /= flow.porosity->eps.primitiveField();
   extras(flow).sources.constrain(answering);
 }
@@ -172,7 +180,6 @@ void solve_momentum(Flow& flow) {
         volume * (source.force.field() + source.coefficient.field() * source.reference.field());
   }
   equation.solve();
-  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
 }
 
 void predict_momentum(Flow& flow) {
@@ -183,8 +190,12 @@ void predict_momentum(Flow& flow) {
   if (flow.source)
     system.momentum->source() += flow.mesh.V().field() * open_momentum(flow) / flow.time.deltaTValue();
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
+  const bool with_predictor = predicts(flow);
   constrain(flow, *system.momentum);
-  if (predicts(flow)) solve_momentum(flow);
+  if (with_predictor) {
+    solve_momentum(flow);
+    if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
+  }
 
   const tmp<volScalarField> response = set_response(flow, system.momentum->A());
   system.memory = std::make_unique<surfaceScalarField>("memory", flux_memory(flow, response()));

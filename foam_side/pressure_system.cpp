@@ -38,7 +38,7 @@ void balance_boundary(Flow& flow, surfaceScalarField& flux) {
     if (flow.porosity) at *= flow.pressure_system.face_drag->eps_f.boundaryField()[patch];
   }
   make_relative(flow, through);
-  Foam::adjustPhi(through, flow.U, flow.p_rgh);
+  adjust_outflow(flow, through, flow.p_rgh);
   make_absolute(flow, through);
   forAll(flow.mesh.boundary(), patch) if (!given(patch))
           flux.boundaryFieldRef()[patch] == through.boundaryField()[patch];

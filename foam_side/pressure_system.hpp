@@ -11,6 +11,7 @@ namespace demvof {
 /// What one momentum prediction leaves for its pressure corrections.
 struct PressureSystem {
   std::unique_ptr<Foam::fvVectorMatrix> momentum;    // inertia and stress; no particle force
+  std::unique_ptr<Foam::fvVectorMatrix> sources;     // what of it fvOptions give; none: nullptr
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
   std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
@@ -44,6 +45,9 @@ tmp<scalarField> rate_to_serve(const Flow& flow);
 
 /// The velocity of the faces that goes with flux and velocity. phi is still that in space.
 void update_face_velocity(Flow& flow);
+
+/// m of the stress div(m mu (grad u + grad u^T)), predict_momentum.cpp. With porosity.
+tmp<volScalarField> stress_share(const Flow& flow);
 
 /// The predictor: all forces, those of the particles implicit in U.
 void solve_momentum(Flow& flow);

@@ -10,14 +10,16 @@
 //
 // makes its flux continuous by a potential, which the inertia A_0 = eps rho/dt and the drag alone resist,
 //
-//   w = w* - m grad(psi).S,   m = max(m_0, b),   1/m_0 = mean((A_0 + C)/eps2)
+//   w = w* - m grad(psi).S
 //
-// with b the mobility in w* itself (face_drag.hpp): between gas that the liquid's viscosity reaches and gas
-// that it does not, both with particles, that is many times m_0, and corrections that count with half of it
-// or less diverge. The cells get what the faces got: u = u* + (w - w*)/(eps |S|), reconstructed. The stress
-// stays that of u*, fluxes that add up to zero; open is what the solver of u* leaves. It is the incremental
-// projection (Goda, J. Comput. Phys. 30 (1979) 76), stable for any nu dt/dx2. Where another correction
-// follows, the pressure also takes what the stress needs,
+// and gives the cells what it gave the faces: u = u* + (w - w*)/(eps |S|), reconstructed. m is what w*
+// answers to a pressure once the stress has been solved: the mobility of face_drag.hpp with, in place of A,
+// the inertia A_0 of a cell or that of a heavier neighbour to which viscosity ties it; at least that with A,
+// which is in w* itself. Corrections that count with less than half of what answers diverge, with twice it
+// they leave half: gas beside the liquid then moves by itself. The stress stays that of u*, fluxes that add
+// up to zero; open are what the solver of u* leaves and what psi, which the mean of both sides of a face has
+// to bear, leaves of the push. It is the incremental projection (Goda, J. Comput. Phys. 30 (1979) 76), stable
+// for any nu dt/dx2. Where another correction follows, the pressure also takes what the stress needs,
 //
 //   p = p* + psi - (mu/eps) (div(phi*) + d(eps)/dt),   mu: where it jumps, that of the thinner side
 //
@@ -93,6 +95,45 @@ scalarField viscosity_of_thinner_side(const Flow& flow) {
   return least;
 }
 
+/// Inertia that a cell answers with, kg/(m3 s): its own, or that of a heavier neighbour to which viscosity
+/// ties it, a I/(a + I).
+volScalarField tied_inertia(const Flow& flow) {
+  const Foam::fvMesh& mesh = flow.mesh;
+  const scalarField& volume = mesh.V();
+  scalarField inertia(void_fraction(flow) * flow.rho.primitiveField() / flow.time.deltaTValue());
+  const volScalarField mu(with_boundary("mu", mesh, Foam::dimDynamicViscosity, dynamic_viscosity(flow)()));
+  const surfaceScalarField stress(fvc::interpolate(mu) * mesh.nonOrthDeltaCoeffs() * mesh.magSf());
+  const auto tie = [](scalar& here, scalar a, scalar there) {
+    here = std::max(here, a * there / (a + there));
+  };
+  for (int ring = 0; ring < 3; ++ring) {  // across the cells that a surface takes
+    const volScalarField before(with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, inertia));
+    forAll(mesh.owner(), face) {
+      const label owner = mesh.owner()[face], neighbour = mesh.neighbour()[face];
+      tie(inertia[owner], stress[face] / volume[owner], before[neighbour]);
+      tie(inertia[neighbour], stress[face] / volume[neighbour], before[owner]);
+    }
+    forAll(before.boundaryField(), patch) {
+      const Foam::fvPatchScalarField& at = before.boundaryField()[patch];
+      if (!at.coupled()) continue;
+      const scalarField beyond(at.patchNeighbourField());
+      forAll(beyond, face) {
+        const label cell = at.patch().faceCells()[face];
+        tie(inertia[cell], stress.boundaryField()[patch][face] / volume[cell], beyond[face]);
+      }
+    }
+  }
+  return with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, inertia);
+}
+
+/// b with the inertia that a pressure meets after the stress has been solved.
+surfaceScalarField mobility_of_projection(const Flow& flow) {
+  const volScalarField inertia(tied_inertia(flow));
+  const FaceDrag drag(flow, inertia);
+  const volScalarField eps(with_boundary("eps", flow.mesh, Foam::dimless, void_fraction(flow)()));
+  return fvc::interpolate(eps / inertia) / (1.0 / drag.eps_f + drag.resistance);
+}
+
 /// Where the case gives the pressure it may depend on the velocity (a total pressure): it stays that of the
 /// equation.
 void renew_boundary_pressure(Flow& flow) {
@@ -122,7 +163,10 @@ void project_velocity(Flow& flow) {
     if (at.fixesValue() && !at.coupled()) at.evaluate();
   const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
   solve_momentum(flow);
-  if (flow.pimple.finalIter()) note_boundary_stress(flow);
+  if (flow.pimple.finalIter()) {
+    note_boundary_stress(flow);
+    note_sources(flow);
+  }
   const Foam::vectorField left(residual(flow, before));
 
   const scalarField eps(void_fraction(flow));
@@ -131,7 +175,7 @@ void project_velocity(Flow& flow) {
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
   const surfaceScalarField of_inertia(1.0 / fvc::interpolate(resistance));  // m_0
-  const surfaceScalarField mobility(Foam::max(of_inertia, *system.mobility));
+  const surfaceScalarField mobility(Foam::max(mobility_of_projection(flow), *system.mobility));
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
@@ -145,7 +189,7 @@ void project_velocity(Flow& flow) {
   const Foam::vectorField of_pressure = reconstructed(flow, of_inertia / mobility * gained);
   flow.U.primitiveFieldRef() += push / eps;
   flow.U.correctBoundaryConditions();
-  if (extras(flow).sources_of_momentum) extras(flow).sources.correct(flow.U);
+  correct_by_sources(flow, inertia);
   own_gradient(flow) = before - inertia / Foam::sqr(eps) * of_pressure;
   flow.p_rgh += potential();
   if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;

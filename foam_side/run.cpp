@@ -52,6 +52,7 @@ void enter_books(Flow& flow, FluidReport& report) {
   report.outside.boundary_shear = books.boundary_shear;
   report.outside.carried_in = books.carried_in;
   report.outside.surface_tension = books.surface_tension;
+  report.outside.sources = books.sources;
 }
 
 RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParameters& parameters,

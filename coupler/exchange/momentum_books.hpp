@@ -26,6 +26,7 @@ struct OutsideImpulses {
   Vec3 boundary_shear;     // viscous, on the fluid
   Vec3 carried_in;         // with fluid that flows through the boundary
   Vec3 surface_tension;    // what its model exerts in sum on the fluid; 0 for closed surfaces
+  Vec3 sources;            // of fvOptions, on the fluid
   Vec3 replacement;        // with drops that replace particles
   Vec3 contacts;           // on particles that forces move: of walls and held particles; among each other 0
   Vec3 held;               // what the fluid gave to particles that no force moves went to what holds them
@@ -44,16 +45,17 @@ struct OutsideImpulses {
   }
 
   /// Names as in results.json.
-  static const std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 12> parts;
+  static const std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 13> parts;
 };
 
-inline constexpr std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 12> OutsideImpulses::parts = {
+inline constexpr std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 13> OutsideImpulses::parts = {
     {{"fluid_weight", &OutsideImpulses::fluid_weight},
      {"particle_weight", &OutsideImpulses::particle_weight},
      {"boundary_pressure", &OutsideImpulses::boundary_pressure},
      {"boundary_shear", &OutsideImpulses::boundary_shear},
      {"carried_in", &OutsideImpulses::carried_in},
      {"surface_tension", &OutsideImpulses::surface_tension},
+     {"sources", &OutsideImpulses::sources},
      {"replacement", &OutsideImpulses::replacement},
      {"contacts", &OutsideImpulses::contacts},
      {"held", &OutsideImpulses::held},

@@ -19,6 +19,7 @@ SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
+DRIVEN = {"^pair.driven_channel$": PAIR}
 HALF = {"^pair.half_submerged$": PAIR}
 FILMS = {r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
@@ -258,7 +259,12 @@ FAULTS = [
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
     # ---- what the pressure corrections leave open
     ("foam_side/project_velocity.cpp", "open_momentum(flow) = -flow", "open_momentum(flow) = flow", THICK),
-    ("foam_side/project_velocity.cpp", "mobility(Foam::max(of_inertia, *system.mobility));", "mobility(1.0 * of_inertia);", THICK),
+    ("foam_side/project_velocity.cpp", "mobility(Foam::max(mobility_of_projection(flow), *system.mobility));",
+     "mobility(mobility_of_projection(flow));", THICK),
+    ("foam_side/project_velocity.cpp", "for (int ring = 0; ring < 3; ++ring)", "for (int ring = 0; ring < 0; ++ring)", THICK),
+    ("foam_side/project_velocity.cpp", "  correct_by_sources(flow, inertia);", "", DRIVEN),
+    ("foam_side/predict_momentum.cpp", "if (flow.pressure_system.viscous) {\n    answering", "if (false) {\n    answering", DRIVEN),
+    ("foam_side/fluid_books.cpp", "(books.step_sources + books.step_corrections)", "books.step_sources", DRIVEN),
     ("foam_side/project_velocity.cpp", "left + inertia / eps * (push - of_pressure)", "left", SETTLING),
     ("foam_side/project_velocity.cpp", "if (!last) flow.p_rgh", "if (last) flow.p_rgh", THICK),
     ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", SETTLING),

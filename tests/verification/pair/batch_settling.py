@@ -136,7 +136,7 @@ def main():
                     "tests/Alltest --verification -- -R pair.batch_settling_long" if options.long
                     else "tests/Alltest -- -R 'pair.batch_settling$'")
     record.note("Stokes velocity", STOKES, "m/s")
-    judge_interface(record, "gidaspow", WEN_YU, (0.0135, 5.6e-10), *simulate(options.demvof, "gidaspow", 5.0, 0.5))
+    judge_interface(record, "gidaspow", WEN_YU, (0.0135, 1.9e-9), *simulate(options.demvof, "gidaspow", 5.0, 0.5))
     if options.long:
         speed = settling_with_di_felice()
         run, times, frames = simulate(options.demvof, "di_felice", 28.0, 0.5)
