@@ -7,9 +7,10 @@
 //
 // Both by the same flux, so alpha = 1 stays 1 and sum(eps alpha V) is kept to round-off. MULES keeps
 // alpha in [0, 1] with eps as its weight, whether its high-order flux is this one or, with
-// advectionScheme isoAdvection, the geometric one (geometric_flux.hpp). In alpha sub-cycles eps is
-// interpolated between the ends of the step as plain arrays: the field's old-time value is the step's and
-// must stay so. Sources: Pozzetti & Peters 2018, eqs. 15-20, 36; Weller 2008 (interface compression).
+// advectionScheme isoAdvection, the geometric one (geometric_flux.hpp). An interIsoFoam case without
+// particles is carried as there. In alpha sub-cycles eps is interpolated between the ends of the step as
+// plain arrays: the field's old-time value is the step's and must stay so. Sources: Pozzetti & Peters 2018,
+// eqs. 15-20, 36; Weller 2008 (interface compression).
 
 #include "CrankNicolsonDdtScheme.H"
 #include "foam_side/extras.hpp"
@@ -54,6 +55,7 @@ struct Carrier {
   const surfaceScalarField& phi;          // mean over the step
   const surfaceScalarField& compressing;  // at its end
   scalar now = 1;
+  const volVectorField* velocity = nullptr;  // with isoAdvector's own bounding, m/s
 };
 
 /// Contact angles act through the curvature calculation of OpenFOAM's interface class.
@@ -136,6 +138,11 @@ tmp<surfaceScalarField> advance_alpha(Flow& flow, const Carrier& carrier, const 
   volScalarField& alpha = flow.alpha;
   std::unique_ptr<surfaceScalarField>& compression = extras(flow).compression;
   tmp<surfaceScalarField> flux, upwind;
+  if (carrier.velocity) {
+    flux = advance_by_cuts(flow, carrier.phi, *carrier.velocity);
+    follow_alpha(flow);
+    return flux;
+  }
   if (controls.semi_implicit) {
     flux = upwind_step(flow, carrier.phi, eps);
     if (controls.reuse) {
@@ -232,6 +239,26 @@ scalar share_of_end(const Flow& flow) {
   return 1 / (1 + Foam::refCast<const CrankNicolson>(scheme()).ocCoeff());
 }
 
+/// As interIsoFoam: further outer correctors begin anew, with the mean of the step's begin and the last
+/// iterate.
+void advance_like_interisofoam(Flow& flow, const dimensionedScalar& rho1, const dimensionedScalar& rho2) {
+  surfaceScalarField phi(flow.phi);
+  volVectorField velocity(flow.U);
+  if (flow.pimple.nCorrPIMPLE() > 1 && flow.pimple.firstIter()) {
+    flow.alpha.storePrevIter();
+    flow.phi.storePrevIter();
+    flow.U.storePrevIter();
+  } else if (!flow.pimple.firstIter()) {
+    flow.alpha = flow.alpha.prevIter();
+    phi = 0.5 * flow.phi.prevIter() + 0.5 * flow.phi;
+    velocity = 0.5 * flow.U.prevIter() + 0.5 * flow.U;
+  }
+  tmp<surfaceScalarField> liquid = advance_alpha_in_parts(
+      flow, {phi, phi, 1, &velocity}, [](double, double) { return Foam::geometricOneField(); });
+  note_liquid_flux(flow, liquid());
+  flow.rho_phi = (rho1 - rho2) * liquid + rho2 * phi;
+}
+
 /// The alpha step of the fluid alone, and the flux of mass that belongs to the end of the step.
 void advance_alone(Flow& flow, const dimensionedScalar& rho1, const dimensionedScalar& rho2) {
   const scalar end = share_of_end(flow);
@@ -271,6 +298,8 @@ void advect_interface(Flow& flow) {
     heavy_flux = advance_between_particles(flow, fluid_flux, flow.ghost->eps) + flow.ghost->flux;
   } else if (flow.porosity) {
     heavy_flux = advance_between_particles(flow, flow.phi, flow.porosity->eps);
+  } else if (AdvectionControls(flow).bounded_by_own) {
+    advance_like_interisofoam(flow, rho1, rho2);
   } else {
     advance_alone(flow, rho1, rho2);
   }

@@ -19,10 +19,13 @@ MeshMotion motion_of(const Flow& flow) {
   return again ? MeshMotion::each_corrector : MeshMotion::each_step;
 }
 
+bool written_for_cuts(const Flow& flow) {
+  return flow.time.controlDict().lookupOrDefault<Foam::word>("application", "") == "interIsoFoam";
+}
+
 Foam::word alpha_scheme(const Flow& flow, const Foam::dictionary& alpha) {
-  const bool for_cuts =
-      flow.time.controlDict().lookupOrDefault<Foam::word>("application", "") == "interIsoFoam";
-  return alpha.lookupOrDefault<Foam::word>("advectionScheme", for_cuts ? "isoAdvection" : "MULES");
+  return alpha.lookupOrDefault<Foam::word>("advectionScheme",
+                                           written_for_cuts(flow) ? "isoAdvection" : "MULES");
 }
 
 Foam::word scheme_of(const Foam::fvMesh& mesh, const Foam::word& term) {
@@ -55,8 +58,10 @@ void require_known_advection(const Flow& flow, const AdvectionControls& alpha) {
   if (alpha.scheme != "MULES" && alpha.scheme != "isoAdvection")
     refuse("advectionScheme is " + alpha.scheme + ", known: MULES, isoAdvection");
   if (!alpha.geometric) return;
-  if (extras(flow).motion != MeshMotion::never)
-    refuse("advectionScheme isoAdvection: not on a mesh that moves; MULES is");
+  if (extras(flow).motion != MeshMotion::never && !alpha.bounded_by_own)
+    refuse(
+        "advectionScheme isoAdvection: on a mesh that moves only without particles, in a case whose "
+        "application is interIsoFoam; MULES does");
   for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())
     if (Foam::isA<Foam::cyclicAMIPolyPatch>(patch))
       refuse("advectionScheme isoAdvection: not with patch " + patch.name() + " of type " + patch.type());
@@ -134,6 +139,7 @@ AdvectionControls::AdvectionControls(const Flow& flow) {
   const Foam::dictionary& alpha = flow.mesh.solverDict(flow.alpha.name());
   scheme = alpha_scheme(flow, alpha);
   geometric = scheme == "isoAdvection";
+  bounded_by_own = geometric && !flow.scene.particles && written_for_cuts(flow);
   correctors = geometric ? 1 : alpha.get<label>("nAlphaCorr");
   sub_cycles = alpha.get<label>("nAlphaSubCycles");
   semi_implicit = !geometric && alpha.lookupOrDefault("MULESCorr", false);  // the cuts have no implicit part

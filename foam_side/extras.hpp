@@ -39,7 +39,8 @@ struct AdvectionControls {
   explicit AdvectionControls(const Flow& flow);
 
   Foam::word scheme;
-  bool geometric;  // flux from the cut of the interface instead of a compression flux
+  bool geometric;       // flux from the cut of the interface instead of a compression flux
+  bool bounded_by_own;  // isoAdvector's own bounding, as in interIsoFoam, which knows no eps
   label correctors, sub_cycles;
   bool semi_implicit;       // MULESCorr: implicit upwind step first, MULES on the rest
   bool reuse;               // alphaApplyPrevCorr: begin with the last step's compression

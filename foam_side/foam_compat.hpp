@@ -5,6 +5,7 @@
 // here is written so that all of them take it; docs/versions.md says what was run, and what compiled only.
 
 #include "foam_side/openfoam.hpp"
+#include "isoAdvection.H"
 
 #if OPENFOAM < 2006
 #include "isoCutCell.H"
@@ -72,5 +73,18 @@ class CellCut {
   Foam::cutFaceAdvect face_;
 #endif
 };
+
+/// A step of isoAdvector with its own bounding. Returns the flux of liquid, m3/s.
+inline tmp<surfaceScalarField> advect_and_bound(volScalarField& alpha, const surfaceScalarField& phi,
+                                                const volVectorField& velocity) {
+  Foam::isoAdvection advector(alpha, phi, velocity);
+#if OPENFOAM < 2006
+  advector.advect();
+#else
+  advector.advect(Foam::zeroField(), Foam::zeroField());
+#endif
+  return advector.getRhoPhi(dimensionedScalar("liquid", Foam::dimless, 1),
+                            dimensionedScalar("gas", Foam::dimless, 0));
+}
 
 }  // namespace demvof

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/geometric_flux.hpp"
 
+#include "extrapolatedCalculatedFvPatchFields.H"
 #include "foam_side/flow.hpp"
 #include "foam_side/foam_compat.hpp"
 #include "interpolationCellPoint.H"
@@ -99,6 +100,20 @@ tmp<surfaceScalarField> geometric_flux(const Flow& flow, const surfaceScalarFiel
     }
   }
   return flux;
+}
+
+tmp<surfaceScalarField> advance_by_cuts(Flow& flow, const surfaceScalarField& phi,
+                                        const volVectorField& velocity) {
+  if (!flow.mesh.moving()) return advect_and_bound(flow.alpha, phi, velocity);
+  volVectorField relative("UtoMesh", velocity);
+  volVectorField of_mesh(Foam::IOobject("Umesh", flow.time.timeName(), flow.mesh), flow.mesh,
+                         Foam::dimensionedVector(Foam::dimVelocity, Foam::Zero),
+                         Foam::extrapolatedCalculatedFvPatchVectorField::typeName);
+  const surfaceScalarField& swept = flow.mesh.phi();
+  of_mesh.primitiveFieldRef() = (*flow.reconstruct)([&](const auto& at, label) { return at(swept); });
+  of_mesh.correctBoundaryConditions();
+  relative -= of_mesh;
+  return advect_and_bound(flow.alpha, phi, relative);
 }
 
 }  // namespace demvof

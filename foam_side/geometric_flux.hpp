@@ -19,4 +19,10 @@ struct Flow;
 /// Source: Roenby, Bredmose & Jasak, R. Soc. Open Sci. 3 (2016) 160405; OpenFOAM's cuts of cells and faces.
 tmp<surfaceScalarField> geometric_flux(const Flow& flow, const surfaceScalarField& phi);
 
+/// The whole alpha step as interIsoFoam does it, without particles, also on a mesh that moves: what a cell
+/// has too much goes on to those behind it, and what is left of that is cut off. velocity: in space, m/s.
+/// Returns the flux of liquid, m3/s.
+tmp<surfaceScalarField> advance_by_cuts(Flow& flow, const surfaceScalarField& phi,
+                                        const volVectorField& velocity);
+
 }  // namespace demvof

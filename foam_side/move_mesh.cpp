@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "foam_side/extras.hpp"
+#include "foam_side/last_answer.hpp"
 #include "wallFvPatch.H"
 
 namespace demvof {
@@ -36,14 +37,6 @@ void renew_given_velocity(Flow& flow) {
   auto& U = flow.U.boundaryFieldRef();
   forAll(U, patch) if (U[patch].fixesValue()) U[patch].initEvaluate();
   forAll(U, patch) if (U[patch].fixesValue()) U[patch].evaluate();
-}
-
-/// How the velocity answered to a force in the last step, m3 s/kg; before the first one the same everywhere.
-tmp<surfaceScalarField> last_answer(const Flow& flow) {
-  if (const auto& answer = flow.pressure_system.inverse_diagonal)
-    return tmp<surfaceScalarField>::New("rAUf", fvc::interpolate(*answer));
-  return surfaceScalarField::New("rAUf", flow.mesh,
-                                 dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
 }
 
 bool move_points(Flow& flow) {

@@ -4,6 +4,7 @@
 #include "foam_side/cell_field.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/last_answer.hpp"
 #include "inletOutletFvPatchFields.H"
 #include "transformFvPatchFields.H"
 
@@ -64,6 +65,13 @@ tmp<volScalarField> set_response(Flow& flow, const volScalarField& A) {
     system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
   }
   return response;
+}
+
+tmp<surfaceScalarField> last_answer(const Flow& flow) {
+  if (const auto& answer = flow.pressure_system.inverse_diagonal)
+    return tmp<surfaceScalarField>::New("rAUf", fvc::interpolate(*answer));
+  return surfaceScalarField::New("rAUf", flow.mesh,
+                                 dimensionedScalar("one", Foam::dimTime / Foam::dimDensity, 1));
 }
 
 tmp<volVectorField> neighbours_velocity(const Flow& flow) {

@@ -10,6 +10,7 @@
 #include "findRefCell.H"
 #include "foam_side/flow.hpp"
 #include "foam_side/initial_fields.hpp"
+#include "foam_side/last_answer.hpp"
 #include "syncTools.H"
 
 namespace demvof {
@@ -97,7 +98,9 @@ bool refine_mesh(Flow& flow, const std::function<void()>& before) {
   }
   if (before) before();
   flow.face_force.clear();
+  std::unique_ptr<volScalarField> answer = std::move(flow.pressure_system.inverse_diagonal);
   flow.pressure_system = PressureSystem();
+  if (!flow.source) flow.pressure_system.inverse_diagonal = std::move(answer);  // mapped like the rest
   // At the start the mesh may be as coarse as the case's: every level at once, each from the one before.
   const bool changed =
       change_mesh(flow, flow.refinement && flow.refinement->first ? flow.refinement->parameters.levels : 1);
@@ -140,7 +143,8 @@ void settle_flux(Flow& flow) {
     flow.phi = flux_of(flow, flow.phi);
   }
   const tmp<scalarField> wanted = flow.porosity ? wanted_porosity_rate(flow) : tmp<scalarField>();
-  fit_flux(flow, projection_mobility(flow), flow.porosity ? &wanted() : nullptr);
+  fit_flux(flow, flow.source ? projection_mobility(flow) : last_answer(flow),
+           flow.porosity ? &wanted() : nullptr);
   flow.mixture.correct();
 }
 
