@@ -126,7 +126,8 @@ std::string advice_on(const std::string& error, const std::filesystem::path& scr
   if (error.find("processors") != std::string::npos) return on_ranks(script);
   if (error.find("Fix ID") != std::string::npos) return on_unknown_fixes(script);
   if (error.find("Atom sorting has bin size") != std::string::npos)
-    return "there are no particles yet by whose size LIGGGHTS could sort them: add the line 'atom_modify sort 0 0'";
+    return "there are no particles yet by whose size LIGGGHTS could sort them: add the line 'atom_modify "
+           "sort 0 0'";
   if (error.find("Invalid pair style") != std::string::npos)
     return on_style(script, "pair_style", pair_style_instead);
   if (error.find("Invalid atom style") != std::string::npos)

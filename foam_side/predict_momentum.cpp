@@ -120,11 +120,15 @@ tmp<surfaceScalarField> relaxation_memory(const Flow& flow, const volScalarField
   return fvc::interpolate(1.0 - unrelaxed / A) * (flux - fvc::flux(flow.U));
 }
 
-/// Relaxes the momentum matrix if the case asks for it; returns what that adds to the flux, if anything.
+/// Relaxes the momentum matrix if the case asks for it; returns what that adds to the flux, if anything. By
+/// 1, as many cases ask, makes the diagonal dominant and no more; the flux hears nothing of it, as in
+/// interFoam.
 tmp<surfaceScalarField> relax_momentum(Flow& flow, Foam::fvVectorMatrix& momentum) {
-  if (!flow.mesh.relaxEquation(flow.U.select(flow.pimple.finalIter()))) return {};
+  const Foam::word name = flow.U.select(flow.pimple.finalIter());
+  if (!flow.mesh.relaxEquation(name)) return {};
   const volScalarField unrelaxed(momentum.A());
   momentum.relax();
+  if (flow.mesh.equationRelaxationFactor(name) == 1) return {};
   return relaxation_memory(flow, unrelaxed, momentum.A());
 }
 

@@ -126,6 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
                       {"walls_U", "{ type movingWallVelocity; value uniform (0 0 0); }"},
                       {"bottom_U", "{ type movingWallVelocity; value uniform (0 0 0); }"}}),
                 false},
+        Variant{"relaxed_by_one", with({{"relaxation", "{ equations { \".*\" 1; } }"}, {"predictor", "yes"}}),
+                false},
         Variant{"sources", with({{"predictor", "yes"}}), false, push_and_resistance},
         Variant{"as_shipped_tolerances", {{"sigma", "0.07"}}, true}),
     [](const testing::TestParamInfo<Variant>& info) { return info.param.name; });
