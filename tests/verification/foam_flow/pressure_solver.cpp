@@ -20,5 +20,14 @@ TEST(PressureSolver, IsCalledSlowOnLargeMeshesAlone) {
   EXPECT_EQ(said("41", "GAMG"), "");
 }
 
+/// A flow that is given (nNonOrthogonalCorrectors -1) needs none.
+TEST(PressureSolver, NeedNotBeThere) {
+  const FoamCase given("pressure_solver_none", {{"nx", "41"}, {"ny", "50"}, {"nz", "50"}});
+  const auto flow = given.open(scene(false, false, false));
+  auto& solvers = const_cast<Foam::dictionary&>(flow->mesh.solutionDict().subDict("solvers"));
+  for (const char* name : {"p_rgh", "p_rghFinal"}) solvers.remove(name);
+  EXPECT_EQ(slow_pressure_solver(*flow), "");
+}
+
 }  // namespace
 }  // namespace demvof::test
