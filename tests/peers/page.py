@@ -16,8 +16,8 @@ RECORD = HERE / "results.json"
 
 # Differences that are not a fault, each with the reason and the measurement that shows it.
 EXPLAINED = {
-    "interFoam/RAS/floatingObject": "`relaxationFactors` of 1 let OpenFOAM make the matrix's diagonal dominant; `foam_side` gives the "
-    "face velocity its share of that (docs/theory.md, PIMPLE). Without that block in both: 1.7e-7",
+    "interIsoFoam/standingWave": "OpenFOAM's Crank-Nicolson forms the old derivative of the flux anew in each pressure correction; `foam_side` "
+                                 "once a step. With one correction, and tight tolerances, in both: 3e-12",
 }
 
 # What interFoam of the package does wrong, and how that was found out.
@@ -68,11 +68,6 @@ CRANK_NICOLSON = """
 last value (`ddtCorrDdt0(U)` of standingWave after two steps: 70.5 m/s2 with three corrections, 94.0 formed once, as `foam_side`
 does: the change of U over the step). standingWave with tolerances of 1e-15: 5.4e-5 with three corrections, 3e-12 with one, 3e-13 with
 Euler and three (with interIsoFoam's own bounding in `foam_side`).
-
-**What still differs.** interIsoFoam bounds the liquid fraction by moving what is too much to the cells behind, `foam_side` by MULES,
-which knows the void fraction: with isoAdvector's own bounding in `foam_side` the disc tutorials are the same to the last digit, iobasin to 5.3e-7.
-sloshingCylinder differed by 2.7e-15 with e425b13, and does not now; it, too, has `relaxationFactors` of 1; whether that is all has not
-been shown.
 """
 
 
