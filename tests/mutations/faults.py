@@ -19,6 +19,7 @@ SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
+ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}
 DRIVEN = {"^pair.driven_channel$": PAIR}
 HALF = {"^pair.half_submerged$": PAIR}
 FILMS = {r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
@@ -269,6 +270,7 @@ FAULTS = [
     ("foam_side/project_velocity.cpp", "if (!last) flow.p_rgh", "if (last) flow.p_rgh", THICK),
     ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", SETTLING),
     ("foam_side/predict_momentum.cpp", "flow.source && number > most_of_corrections;", "flow.source && number > 1e30 * most_of_corrections;", THICK),
+    ("foam_side/predict_momentum.cpp", "equationRelaxationFactor(name) == 1)", "equationRelaxationFactor(name) == 100)", ALONE),
     # ---- clumps
     ("dem_side/clumps.cpp", "pass < 3", "pass < 0", CLUMPS),
     ("dem_side/clumps.cpp", "fix_->data().reset_forces(true);", "", CLUMPS),
