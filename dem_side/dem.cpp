@@ -232,6 +232,10 @@ ParticleArrays Dem::particles() const {
   return all;
 }
 
+int Dem::mask(int i) const {
+  return liggghts_->atom->mask[i];
+}
+
 double Dem::time_step() const {
   return liggghts_->update->dt;
 }

@@ -88,7 +88,9 @@ class Dem {
   void go_on_from(const RandomStates& saved);  // after set_up
   long step() const;                           // of LIGGGHTS, the script's own included
 
+  /// With clumps found anew: a call for all particles, none for each.
   ParticleArrays particles() const;
+  int mask(int i) const;  // of local particle i
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
   /// that are frozen, moved by prescription or not integrated at all.
   bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }

@@ -11,7 +11,8 @@ namespace demvof {
 
 void FluidForces::keep_to_reached_fluids(const std::function<bool(int, int)>& reached) {
   double* const* rows = dem_.particle_rows(rows_name);
-  for (int i = 0; i < dem_.particles().count; ++i) {
+  const int count = dem_.particles().count;
+  for (int i = 0; i < count; ++i) {
     CarriedRow& row = carried_by(rows, i);
     for (int k = 0; k < 2; ++k) {
       if (reached(k, i) || !reached(1 - k, i)) continue;

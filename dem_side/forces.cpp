@@ -119,7 +119,7 @@ double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
 }
 
 bool FluidForces::moved_by_forces(int i) const {
-  return dem_.moves(dem_.particles().mask[i]) && !dem_.stream(i).carries;
+  return dem_.moves(dem_.mask(i)) && !dem_.stream(i).carries;
 }
 
 double FluidForces::held_share(const CarriedRow& row, int i) const {

@@ -22,52 +22,46 @@ using demvof::WindowImpulses;
 constexpr double volume = 2 * bead_volume, mass = 2 * bead_mass;
 const double diameter = bead_diameter * std::cbrt(2.0);  // of the sphere of that volume
 
-/// One clump somewhere between the heights, m, at rest; its mass and moments are given, not found by chance.
-std::string doublet(double step, double lowest, double highest, const std::string& more = gravity,
-                    const std::string& kept = "") {
-  const double a = bead_diameter / 2, m = bead_mass;
-  const std::string r = std::to_string(1000 * a) + "e-3",
-                    along = std::to_string(1e9 * 0.8 * m * a * a) + "e-9",
-                    across = std::to_string(1e9 * 2.8 * m * a * a) + "e-9";
+/// Clumps of one template somewhere between the heights, m, at rest over a floor.
+std::string clumps(double step, const std::string& spheres, double lowest, double highest, int count,
+                   const std::string& more) {
   std::string box = empty_box(step);
   box.insert(box.find("map array") + 9, " sort 0 0");
   return box +
          "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n"
-         "fix pair all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 2 "
-         "ntry 100000 "
-         "spheres -" +
-         r + " 0 0 " + r + " " + r + " 0 0 " + r + " type 1 mass " + std::to_string(1e6 * mass) +
-         "e-6 inertia_tensor " + along + " 0 0 " + across + " 0 " + across + " use_density" + kept +
-         "\n"
-         "fix one all particledistribution/discrete 15485867 1 pair 1.0\n"
-         "region room block 0.04 0.06 0.04 0.06 " +
-         std::to_string(lowest) + " " + std::to_string(highest) +
-         " units box\n"
-         "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
-         "once "
-         "overlapcheck yes region room particles_in_region 1\n"
-         "fix move all multisphere\nrun 1\nunfix put\n" +
-         more;
-}
-
-/// A row of overlapping spheres, large to small, on its side.
-std::string uneven(double lowest, double highest, int clumps, const std::string& kept = "") {
-  std::string box = empty_box(1e-5);
-  box.insert(box.find("map array") + 9, " sort 0 0");
-  return box +
-         "fix floor all wall/gran model hooke/stiffness tangential history primitive type 1 zplane 0.0\n"
-         "fix drop all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 nspheres 4 "
-         "ntry 1000000 "
-         "spheres 0 0 0 2e-3 1e-3 0.5e-3 0 1.8e-3 2e-3 0 0.7e-3 1.2e-3 4e-3 0 0 0.6e-3 type 1" +
-         kept +
-         "\nfix one all particledistribution/discrete 15485867 1 drop 1.0\n"
+         "fix shape all particletemplate/multisphere 15485863 atom_type 1 density constant 2500 " +
+         spheres +
+         "\nfix one all particledistribution/discrete 15485867 1 shape 1.0\n"
          "region room block 0.02 0.08 0.02 0.08 " +
          std::to_string(lowest) + " " + std::to_string(highest) +
          " units box\n"
          "fix put all insert/pack seed 32452843 distributiontemplate one vel constant 0 0 0 insert_every "
          "once "
          "overlapcheck yes region room particles_in_region " +
-         std::to_string(clumps) + "\nfix move all multisphere\nrun 1\nunfix put\n" + gravity;
+         std::to_string(count) + "\nfix move all multisphere\nrun 1\nunfix put\n" + more;
+}
+
+/// Its mass and moments are given, not found by chance.
+std::string doublet(double step, double lowest, double highest, const std::string& more = gravity,
+                    const std::string& kept = "") {
+  const double a = bead_diameter / 2, m = bead_mass;
+  const std::string r = std::to_string(1000 * a) + "e-3",
+                    along = std::to_string(1e9 * 0.8 * m * a * a) + "e-9",
+                    across = std::to_string(1e9 * 2.8 * m * a * a) + "e-9";
+  return clumps(step,
+                "nspheres 2 ntry 100000 spheres -" + r + " 0 0 " + r + " " + r + " 0 0 " + r +
+                    " type 1 mass " + std::to_string(1e6 * mass) + "e-6 inertia_tensor " + along + " 0 0 " +
+                    across + " 0 " + across + " use_density" + kept,
+                lowest, highest, 1, more);
+}
+
+/// A row of overlapping spheres, large to small, on its side.
+std::string uneven(double lowest, double highest, int count, const std::string& kept = "") {
+  return clumps(1e-5,
+                "nspheres 4 ntry 1000000 spheres 0 0 0 2e-3 1e-3 0.5e-3 0 1.8e-3 2e-3 0 0.7e-3 1.2e-3 "
+                "4e-3 0 0 0.6e-3 type 1" +
+                    kept,
+                lowest, highest, count, gravity);
 }
 
 void window(demvof::Dem& dem, FluidForces& forces, const FluidAtParticle& fluid, int steps) {

@@ -8,6 +8,7 @@ are counted and named. A minute or some for each scene; no build of its own.
 """
 import collections
 import pathlib
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -97,6 +98,8 @@ def errors(out):
 
 
 def main():
+    if not shutil.which("valgrind"):
+        raise SystemExit("memcheck.py needs valgrind: install the package of that name")
     wrong = False
     for name in ONLY or SCENES:
         make, options, ranks = SCENES[name]
