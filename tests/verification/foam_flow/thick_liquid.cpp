@@ -129,24 +129,30 @@ TEST_P(ThickLiquid, PlugBetweenWalls) {
   EXPECT_LT(steeper, 0.045 * steep);
 }
 
+/// A small box for steps of dt, s; further settings count in place of these.
+FoamCase small_box(const std::string& name, double viscosity, double dt, const Settings& more) {
+  Settings settings = more;
+  const std::string step = std::to_string(dt);
+  settings.insert({{"nu_water", std::to_string(viscosity)},
+                   {"first_step", step},
+                   {"longest_step", step},
+                   {"lx", "0.03"},
+                   {"ly", "0.03"},
+                   {"lz", "0.06"},
+                   {"nx", "6"},
+                   {"ny", "6"},
+                   {"nz", "12"}});
+  return {name, settings};
+}
+
 /// Held particles in the gas over a thick liquid, denser just over its surface. The face between a cell of
 /// gas that the liquid's viscosity reaches and one that it does not answers to a pressure like the freer of
 /// the two. The corrections have to count with that: with a stiffer face they diverge (190 to 2600 m/s).
 TEST_P(ThickLiquid, ParticlesInGasOverIt) {
   const double dx = 0.005, dt = 1e-3, nu = GetParam() * dx * dx / dt, moved = 0.1;
-  const auto flow = FoamCase("thick_under_gas", {{"nu_water", std::to_string(nu)},
-                                                 {"lx", "0.03"},
-                                                 {"ly", "0.03"},
-                                                 {"lz", "0.06"},
-                                                 {"nx", "6"},
-                                                 {"ny", "6"},
-                                                 {"nz", "12"},
-                                                 {"g_z", "0"},
-                                                 {"p_tolerance", "1e-9"},
-                                                 {"p_rel_tol", "0"},
-                                                 {"first_step", std::to_string(dt)},
-                                                 {"longest_step", std::to_string(dt)}})
-                        .open(scene(true, true, false));
+  const auto flow =
+      small_box("thick_under_gas", nu, dt, {{"g_z", "0"}, {"p_tolerance", "1e-9"}, {"p_rel_tol", "0"}})
+          .open(scene(true, true, false));
   set_alpha(*flow, [](const vector& x) { return x.z() < 0.03 ? 1 : 0; });
   const auto of_bed = [](const vector& x, double value) {
     return x.z() < 0.03 ? 0 : x.z() < 0.035 ? value : x.z() < 0.045 ? 2 * value : 0;
@@ -173,17 +179,15 @@ TEST_P(ThickLiquid, ParticlesInGasOverIt) {
 /// viscosity ties to it, answered freely, they leave an eighth, and a disturbance grows to 0.04 m/s.
 TEST_P(ThickLiquid, StaysAtRestUnderGas) {
   const double dx = 0.01, dt = 5e-3, nu = GetParam() * dx * dx / dt, disturbance = 1e-6;
-  const auto flow = FoamCase("thick_at_rest", {{"nu_water", std::to_string(nu)},
-                                               {"lx", "0.08"},
-                                               {"ly", "0.08"},
-                                               {"lz", "0.16"},
-                                               {"nx", "8"},
-                                               {"ny", "8"},
-                                               {"nz", "16"},
-                                               {"p_tolerance", "1e-10"},
-                                               {"p_rel_tol", "0.01"},
-                                               {"first_step", std::to_string(dt)},
-                                               {"longest_step", std::to_string(dt)}})
+  const auto flow = small_box("thick_at_rest", nu, dt,
+                              {{"lx", "0.08"},
+                               {"ly", "0.08"},
+                               {"lz", "0.16"},
+                               {"nx", "8"},
+                               {"ny", "8"},
+                               {"nz", "16"},
+                               {"p_tolerance", "1e-10"},
+                               {"p_rel_tol", "0.01"}})
                         .open(scene(true, true, false));
   set_alpha(*flow, [](const vector& x) { return x.z() < 0.08 ? 1 : 0; });
   const scalarField eps(flow->mesh.nCells(), 1.0);
@@ -203,18 +207,7 @@ TEST_P(ThickLiquid, StaysAtRestUnderGas) {
 /// However loosely the velocity is solved: what is left of its equation is the fluid's until the next step.
 TEST_P(ThickLiquid, MomentumIsKept) {
   const double dx = 0.005, dt = 1e-3, nu = GetParam() * dx * dx / dt;
-  const auto flow = FoamCase("thick_loose", {{"nu_water", std::to_string(nu)},
-                                             {"lx", "0.03"},
-                                             {"ly", "0.03"},
-                                             {"lz", "0.06"},
-                                             {"nx", "6"},
-                                             {"ny", "6"},
-                                             {"nz", "12"},
-                                             {"g_z", "0"},
-                                             {"top_alpha", "1"},
-                                             {"u_rel_tol", "0.1"},
-                                             {"first_step", std::to_string(dt)},
-                                             {"longest_step", std::to_string(dt)}})
+  const auto flow = small_box("thick_loose", nu, dt, {{"g_z", "0"}, {"top_alpha", "1"}, {"u_rel_tol", "0.1"}})
                         .open(scene(true, false, false));
   set_alpha(*flow, [](const vector&) { return 1; });
   const scalarField& volume = flow->mesh.V();
