@@ -38,7 +38,7 @@ void update_velocity_between_particles(Flow& flow, const volVectorField& h,
   const scalarField* eps = flow.porosity ? &flow.porosity->eps.primitiveField() : nullptr;
   const Foam::vectorField push = own_push(flow, transported, flow.phi);
   const Foam::vectorField& reference = flow.source->reference.field();
-  const Foam::vectorField& force = flow.source->force.field();
+  const Foam::vectorField& force = flow.pressure_system.force;
   Foam::vectorField& U = flow.U.primitiveFieldRef();
   Foam::vectorField& own = own_gradient(flow);
   forAll(U, cell) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/face_drag.hpp"
 
+#include "foam_side/cell_field.hpp"
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -22,40 +23,35 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> with_boundary(
 
 }  // namespace
 
-FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A)
+FaceDrag::FaceDrag(const Flow& flow, const volScalarField& A, const Foam::vectorField& force)
     : eps_f("eps_f", flow.porosity ? face_void_fraction(flow.porosity->eps)
                                    : surfaceScalarField::New("eps_f", flow.mesh,
                                                              dimensionedScalar("one", Foam::dimless, 1))),
+      response("response", fvc::interpolate(1.0 / A)),
       resistance("resistance", 0 * eps_f),
-      share("share", 1 * eps_f),
       reference("reference", 0 * flow.phi),
       push("push", 0 * flow.phi),
       stiffness(flow.source->coefficient.field() / A.primitiveField()) {
-  volScalarField inertia("inertia", A);
   volScalarField drag(with_boundary(flow.source->coefficient));
-  volVectorField force(with_boundary(flow.source->force));
+  volVectorField pushed(with_boundary("force", flow.mesh, Foam::dimForce / Foam::dimVolume, force));
   volVectorField towards(drag * with_boundary(flow.source->reference));  // C u_ref
-  volScalarField relative("stiffness", drag / A);                        // k
   if (flow.porosity) {
     // At the ends of the fluid the cell has the only side, whatever void fraction the patch gives the flux.
     const volScalarField eps(with_boundary(flow.porosity->eps()));
-    inertia /= eps;
+    response = fvc::interpolate(eps / A);
     drag /= Foam::sqr(eps);
-    force /= eps;
+    pushed /= eps;
     towards /= eps;
-    relative /= eps;
   }
-  const surfaceScalarField inertia_f(fvc::interpolate(inertia));
   const surfaceScalarField drag_f(fvc::interpolate(drag));
   const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
-  resistance = drag_f / inertia_f;
-  share = resistance / (fvc::interpolate(relative) + dimensionedScalar("tiny", Foam::dimless, Foam::VSMALL));
+  resistance = response * drag_f;
   reference = fvc::dotInterpolate(flow.mesh.Sf(), towards) / (drag_f + tiny);
   if (flow.porosity) {
     const volScalarField eps_drag("drag", with_boundary(flow.porosity->eps()) * drag);  // C/eps
     reference -= fvc::interpolate(eps_drag) / (drag_f + tiny) * flow.porosity->along;
   }
-  push = fvc::dotInterpolate(flow.mesh.Sf(), force) / inertia_f;
+  push = response * fvc::dotInterpolate(flow.mesh.Sf(), pushed);
 }
 
 }  // namespace demvof

@@ -24,29 +24,33 @@ struct Flow;
 /// the edge of the bed is. Each side obeys its own balance with its own pressure gradient; the mean of both
 /// gradients is the one of the face:
 ///
-///   (1/e + kappa) w = mean(h).S - v.S + kappa R + B - a_f grad p.S
+///   (1/e + kappa) w = mean(h).S - v.S + kappa R + B - a_f grad p.S,   a_f = mean(a)
 ///
-///   kappa = mean(C/eps^2) / mean(A/eps)       R = mean(C (u_ref - v)/eps).S / mean(C/eps^2)
-///   B     = mean(F/eps).S / mean(A/eps)
+///   kappa = a_f mean(C/eps^2)       R = mean(C (u_ref - v)/eps).S / mean(C/eps^2)
+///   B     = a_f mean(F/eps).S
 ///
-/// and the push of the pressure on the cell as seen from its own side of the face is
+/// and what pressure and F do to the cell as seen from its own side of the face is
 ///
-///   (w - e (mean(h) - v).S + s k (w - R))/eps - B,   s = kappa/mean(k/eps)
+///   (a/a_f) (w/eps - (e/eps) (mean(h) - v).S) + (k/eps) (w - R)
 ///
-/// In a uniform medium this is -a grad p.S. The mean of both sides is the face's, or momentum would be lost
-/// there: hence s, which differs from 1 where A/eps jumps. With one pressure gradient for both sides instead,
-/// the free fluid beside a bed is pushed by half the bed's pressure gradient (velocity errors of 125 % at k =
-/// 100; tests/verification/foam_flow/porous_plug.cpp).
+/// In a uniform medium this is a (F/eps - grad p).S. The mean of A/eps times that of both sides is what the
+/// face has, or momentum would be lost there; where drag outweighs A, how A jumps (a surface, viscosity) does
+/// not matter. With one pressure gradient for both sides instead, the free fluid beside a bed is pushed by
+/// half the bed's pressure gradient (velocity errors of 125 % at k = 100;
+/// tests/verification/foam_flow/porous_plug.cpp).
 struct FaceDrag {
-  /// A: diagonal of the momentum matrix per volume, without drag, kg/(m3 s).
-  FaceDrag(const Flow& flow, const volScalarField& A);
+  /// A: diagonal of the momentum matrix per volume, without drag, kg/(m3 s); force: F, N/m3.
+  FaceDrag(const Flow& flow, const volScalarField& A, const Foam::vectorField& force);
 
   surfaceScalarField eps_f;       // e, -
+  surfaceScalarField response;    // a_f, m3 s/kg
   surfaceScalarField resistance;  // kappa, -
-  surfaceScalarField share;       // s, -
   surfaceScalarField reference;   // R, m3/s
   surfaceScalarField push;        // B, m3/s
   scalarField stiffness;          // k, -
+
+  /// Flux per pressure gradient, a_f/(1/e + kappa), m3 s/kg.
+  tmp<surfaceScalarField> mobility() const { return response / (1.0 / eps_f + resistance); }
 };
 
 }  // namespace demvof

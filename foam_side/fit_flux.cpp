@@ -13,12 +13,10 @@ namespace demvof {
 
 tmp<surfaceScalarField> projection_mobility(const Flow& flow) {
   const volScalarField specific_volume("specificVolume", 1.0 / flow.rho);
-  tmp<surfaceScalarField> free = flow.time.deltaT() * fvc::interpolate(specific_volume);
-  if (!flow.source) return free;
+  if (!flow.source) return flow.time.deltaT() * fvc::interpolate(specific_volume);
   volScalarField inertia("A", flow.rho / flow.time.deltaT());
   if (flow.porosity) inertia *= flow.porosity->eps;
-  const FaceDrag drag(flow, inertia);
-  return free / (1.0 / drag.eps_f + drag.resistance);
+  return FaceDrag(flow, inertia, flow.source->force.field()).mobility();
 }
 
 // A void fraction follows the flux it gets and asks for the rest in its next step; nothing does that for

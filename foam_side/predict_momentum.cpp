@@ -181,7 +181,7 @@ void solve_momentum(Flow& flow) {
     const scalarField& volume = flow.mesh.V().field();
     equation.diag() += volume * source.coefficient.field();
     equation.source() +=
-        volume * (source.force.field() + source.coefficient.field() * source.reference.field());
+        volume * (flow.pressure_system.force + source.coefficient.field() * source.reference.field());
   }
   equation.solve();
 }
@@ -191,8 +191,7 @@ void predict_momentum(Flow& flow) {
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
-  if (flow.source)
-    system.momentum->source() += flow.mesh.V().field() * open_momentum(flow) / flow.time.deltaTValue();
+  if (flow.source) system.force = flow.source->force.field() + open_momentum(flow) / flow.time.deltaTValue();
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
   const bool with_predictor = predicts(flow);
   constrain(flow, *system.momentum);

@@ -57,10 +57,8 @@ tmp<volScalarField> set_response(Flow& flow, const volScalarField& A) {
                *system.inverse_diagonal;  // at its ends, too, that of the cell
   system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
   if (flow.source) {
-    system.face_drag = std::make_unique<FaceDrag>(flow, A);
-    const FaceDrag& drag = *system.face_drag;
-    system.mobility =
-        std::make_unique<surfaceScalarField>("rAUf", *system.response / (1.0 / drag.eps_f + drag.resistance));
+    system.face_drag = std::make_unique<FaceDrag>(flow, A, system.force);
+    system.mobility = std::make_unique<surfaceScalarField>("rAUf", system.face_drag->mobility());
   } else {
     system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
   }
@@ -102,9 +100,7 @@ Foam::vectorField own_push(const Flow& flow, const surfaceScalarField& transport
       flow.porosity ? flux - flow.porosity->carried : tmp<surfaceScalarField>(flux);
   return (*flow.reconstruct)([&](const auto& at, label cell) {
     const scalar e = eps ? (*eps)[cell] : 1, k = c.stiffness[cell], w = at(past());
-    const scalar pressure =
-        (w - at(c.eps_f) * at(transported) + at(c.share) * k * (w - at(c.reference))) / e - at(c.push);
-    return at(c.push) + e * rAU[cell] / at(*flow.pressure_system.response) * pressure;
+    return rAU[cell] / at(c.response) * (w - at(c.eps_f) * at(transported)) + k * (w - at(c.reference)) / e;
   });
 }
 

@@ -10,8 +10,9 @@ namespace demvof {
 
 /// What one momentum prediction leaves for its pressure corrections.
 struct PressureSystem {
-  std::unique_ptr<Foam::fvVectorMatrix> momentum;    // inertia and stress; no particle force
-  std::unique_ptr<Foam::fvVectorMatrix> sources;     // what of it fvOptions give; none: nullptr
+  std::unique_ptr<Foam::fvVectorMatrix> momentum;  // inertia and stress; no particle force
+  std::unique_ptr<Foam::fvVectorMatrix> sources;   // what of it fvOptions give; none: nullptr
+  Foam::vectorField force;  // of the particles, with what the last step left open, N/m3
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
   std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s

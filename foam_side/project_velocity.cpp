@@ -14,9 +14,9 @@
 //
 // and gives the cells what it gave the faces: u = u* + (w - w*)/(eps |S|), reconstructed. m is what w*
 // answers to a pressure once the stress has been solved: the mobility of face_drag.hpp with, in place of A,
-// the inertia A_0 of a cell or that of a heavier neighbour to which viscosity ties it; at least that with A,
-// which is in w* itself. Corrections that count with less than half of what answers diverge, with twice it
-// they leave half: gas beside the liquid then moves by itself. The stress stays that of u*, fluxes that add
+// the inertia A_0 of a cell or that of a heavier neighbour to which viscosity ties it. Corrections that count
+// with less than half of what answers diverge, with twice it they leave half: gas beside the liquid then
+// moves by itself. The stress stays that of u*, fluxes that add
 // up to zero; open are what the solver of u* leaves and what psi, which the mean of both sides of a face has
 // to bear, leaves of the push. It is the incremental projection (Goda, J. Comput. Phys. 30 (1979) 76), stable
 // for any nu dt/dx2. Where another correction follows, the pressure also takes what the stress needs,
@@ -68,8 +68,8 @@ surfaceScalarField predicted_flux(Flow& flow) {
   flux -= mobility * fvc::snGrad(flow.p_rgh) * flow.mesh.magSf();
   const Foam::vectorField push = own_push(flow, transported, flux);
   const scalarField& rAU = system.inverse_diagonal->primitiveField();
-  gradient_at_kinks(flow) = (flow.source->force.field() - push / rAU) / void_fraction(flow) +
-                            reconstructed(flow, push_of_pressure(flow));
+  gradient_at_kinks(flow) =
+      (system.force - push / rAU) / void_fraction(flow) + reconstructed(flow, push_of_pressure(flow));
   return flux;
 }
 
@@ -126,14 +126,6 @@ volScalarField tied_inertia(const Flow& flow) {
   return with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, inertia);
 }
 
-/// b with the inertia that a pressure meets after the stress has been solved.
-surfaceScalarField mobility_of_projection(const Flow& flow) {
-  const volScalarField inertia(tied_inertia(flow));
-  const FaceDrag drag(flow, inertia);
-  const volScalarField eps(with_boundary("eps", flow.mesh, Foam::dimless, void_fraction(flow)()));
-  return fvc::interpolate(eps / inertia) / (1.0 / drag.eps_f + drag.resistance);
-}
-
 /// Where the case gives the pressure it may depend on the velocity (a total pressure): it stays that of the
 /// equation.
 void renew_boundary_pressure(Flow& flow) {
@@ -150,7 +142,7 @@ void renew_boundary_pressure(Flow& flow) {
 Foam::vectorField residual(const Flow& flow, const Foam::vectorField& pressure) {
   const ParticleSource& source = *flow.source;
   const Foam::vectorField& U = flow.U.primitiveField();
-  return (*flow.pressure_system.momentum & flow.U)().primitiveField() - source.force.field() -
+  return (*flow.pressure_system.momentum & flow.U)().primitiveField() - flow.pressure_system.force -
          source.coefficient.field() * (source.reference.field() - U) + void_fraction(flow) * pressure;
 }
 
@@ -175,7 +167,7 @@ void project_velocity(Flow& flow) {
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
   const surfaceScalarField of_inertia(1.0 / fvc::interpolate(resistance));  // m_0
-  const surfaceScalarField mobility(Foam::max(mobility_of_projection(flow), *system.mobility));
+  const surfaceScalarField mobility(FaceDrag(flow, tied_inertia(flow), system.force).mobility());
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
@@ -190,7 +182,11 @@ void project_velocity(Flow& flow) {
   flow.U.primitiveFieldRef() += push / eps;
   flow.U.correctBoundaryConditions();
   correct_by_sources(flow, inertia);
-  own_gradient(flow) = before - inertia / Foam::sqr(eps) * of_pressure;
+  const Foam::vectorField of_potential(inertia / Foam::sqr(eps) * of_pressure);
+  own_gradient(flow) = before - of_potential;
+  // u of the next correction is solved with it: what holds a bed, felt by the free gas beside it, throws
+  // that.
+  gradient_at_kinks(flow) += reconstructed(flow, gained / mobility) - of_potential;
   flow.p_rgh += potential();
   if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
   renew_boundary_pressure(flow);

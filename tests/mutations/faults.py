@@ -18,6 +18,7 @@ PAIR = ["foam_side", "dem_side", "demvof", "demvof_pair"]
 SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
+ACROSS = {"^foam_flow.StiffDrag$": ["foam_flow_test"]}
 THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}
 DRIVEN = {"^pair.driven_channel$": PAIR}
@@ -260,8 +261,11 @@ FAULTS = [
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
     # ---- what the pressure corrections leave open
     ("foam_side/project_velocity.cpp", "open_momentum(flow) = -flow", "open_momentum(flow) = flow", THICK),
-    ("foam_side/project_velocity.cpp", "mobility(Foam::max(mobility_of_projection(flow), *system.mobility));",
-     "mobility(mobility_of_projection(flow));", THICK),
+    ("foam_side/project_velocity.cpp", "gradient_at_kinks(flow) += reconstructed(flow, gained / mobility) - of_potential;", "", THICK),
+    ("foam_side/face_drag.cpp", "resistance = response * drag_f;", "resistance = drag_f / fvc::interpolate(A);", ACROSS),
+    ("foam_side/predict_momentum.cpp", "flow.source->force.field() + open_momentum(flow)", "flow.source->force.field() + 0 * open_momentum(flow)",
+     THICK),
+    ("foam_side/pressure_system.cpp", "+ k * (w - at(c.reference)) / e;", "+ rAU[cell] / at(c.response) * k * (w - at(c.reference)) / e;", ACROSS),
     ("foam_side/project_velocity.cpp", "for (int ring = 0; ring < 3; ++ring)", "for (int ring = 0; ring < 0; ++ring)", THICK),
     ("foam_side/project_velocity.cpp", "  correct_by_sources(flow, inertia);", "", DRIVEN),
     ("foam_side/predict_momentum.cpp", "if (flow.pressure_system.viscous) {\n    answering", "if (false) {\n    answering", DRIVEN),

@@ -145,33 +145,38 @@ FoamCase small_box(const std::string& name, double viscosity, double dt, const S
   return {name, settings};
 }
 
-/// Held particles in the gas over a thick liquid, denser just over its surface. The face between a cell of
-/// gas that the liquid's viscosity reaches and one that it does not answers to a pressure like the freer of
-/// the two. The corrections have to count with that: with a stiffer face they diverge (190 to 2600 m/s).
+/// Held particles in the gas over a thick liquid, of any stiffness, denser just over its surface. The face
+/// between a cell of gas that the liquid's viscosity reaches and one that it does not answers to a pressure
+/// like the freer of the two: with a stiffer one the corrections diverge (190 to 2600 m/s). What holds the
+/// bed must not be felt by the free gas over it (10 m/s at C = 1e6 kg/(m3 s), 2.5e4 m/s at 1e8).
 TEST_P(ThickLiquid, ParticlesInGasOverIt) {
   const double dx = 0.005, dt = 1e-3, nu = GetParam() * dx * dx / dt, moved = 0.1;
-  const auto flow =
-      small_box("thick_under_gas", nu, dt, {{"g_z", "0"}, {"p_tolerance", "1e-9"}, {"p_rel_tol", "0"}})
-          .open(scene(true, true, false));
-  set_alpha(*flow, [](const vector& x) { return x.z() < 0.03 ? 1 : 0; });
-  const auto of_bed = [](const vector& x, double value) {
-    return x.z() < 0.03 ? 0 : x.z() < 0.035 ? value : x.z() < 0.045 ? 2 * value : 0;
-  };
-  const scalarField eps = cell_values(*flow, [&](const vector& x) { return 1 - of_bed(x, 0.1); });
-  set_initial_porosity(*flow, eps);
-  flow->source->coefficient.field() = cell_values(*flow, [&](const vector& x) { return of_bed(x, 1e4); });
-  forAll(flow->U, cell) {
-    const vector& x = flow->mesh.C()[cell];
-    flow->source->reference.field()[cell] = x.x() < 0.015 ? vector(0, 0, -moved) : vector(0, 0, moved);
+  const FoamCase box =
+      small_box("thick_under_gas", nu, dt, {{"g_z", "0"}, {"p_tolerance", "1e-9"}, {"p_rel_tol", "0"}});
+  for (const double stiffness : {1e4, 1e6, 1e8}) {
+    const auto flow = box.open(scene(true, true, false));
+    set_alpha(*flow, [](const vector& x) { return x.z() < 0.03 ? 1 : 0; });
+    const auto of_bed = [](const vector& x, double value) {
+      return x.z() < 0.03 ? 0 : x.z() < 0.035 ? value : x.z() < 0.045 ? 2 * value : 0;
+    };
+    const scalarField eps = cell_values(*flow, [&](const vector& x) { return 1 - of_bed(x, 0.1); });
+    set_initial_porosity(*flow, eps);
+    flow->source->coefficient.field() =
+        cell_values(*flow, [&](const vector& x) { return of_bed(x, stiffness); });
+    forAll(flow->U, cell) {
+      const vector& x = flow->mesh.C()[cell];
+      flow->source->reference.field()[cell] = x.x() < 0.015 ? vector(0, 0, -moved) : vector(0, 0, moved);
+    }
+    double fastest = 0;
+    for (int step = 0; step < 20; ++step) {
+      begin_window(*flow, flow->time.value() + dt);
+      set_porosity_target(*flow, eps);
+      advance(*flow, [&] { fastest = std::max(fastest, largest_speed(*flow)); });
+    }
+    std::cout << "nu dt/dx2 " << GetParam() << ", C " << stiffness << " kg/(m3 s): largest speed " << fastest
+              << " m/s\n";
+    EXPECT_LT(fastest, 1.5 * moved);
   }
-  double fastest = 0;
-  for (int step = 0; step < 20; ++step) {
-    begin_window(*flow, flow->time.value() + dt);
-    set_porosity_target(*flow, eps);
-    advance(*flow, [&] { fastest = std::max(fastest, largest_speed(*flow)); });
-  }
-  std::cout << "nu dt/dx2 " << GetParam() << ": largest speed " << fastest << " m/s\n";
-  EXPECT_LT(fastest, 3 * moved);
 }
 
 /// A surface at rest, with a step so long that what gravity does to a gas cell into which a little liquid
