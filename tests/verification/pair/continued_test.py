@@ -18,6 +18,9 @@ from pair import Pair
 from reporting.run import Run
 
 BOUND = 2e-7  # of a quantity's largest value; the pressure solver stops at 1e-10
+# Sums over ranks differ in their last digit, and with that the pressure solver may stop an iteration earlier: what it
+# leaves has to be less than what is compared.
+SOLVED = {"tolerance": 1e-13, "relative_tolerance": 1e-6}
 DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 
 
@@ -77,12 +80,12 @@ class Continued(unittest.TestCase):
         self.check_same()
 
     def test_four_ranks(self):
-        self.case()
-        self.check_same("--fluid-ranks", "2", "--particle-ranks", "2")
+        self.case(**SOLVED)
+        self.check_same("--fluid-ranks", "2", "--particle-ranks", "2", bound=2e-11)
 
     def test_other_fluid_ranks(self):
         """On one rank, on two, on one again."""
-        self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"added_mass": 0.5}])
+        self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"added_mass": 0.5}], **SOLVED)
         whole = self.run_to("whole", 0.03)
         parts = self.run_to("parts", 0.01)
         self.run_to("parts", 0.02, "--continue", "--fluid-ranks", "2")
@@ -90,10 +93,7 @@ class Continued(unittest.TestCase):
         code, text, _ = self.run_case("parts", "--continue")
         self.assertEqual(code, 0, text)
         self.assertIn("dividing the state for 1 in place of 2 fluid ranks", text)
-        # On one and on two ranks all along: 1.3e-5, from the first impact on the surface at 0.02 s; before it 8e-11.
-        self.compare(whole, parts, bound=2.2e-5, times=False)
-        energy = [Run(run).history["particle_kinetic_energy"][:20] for run in (whole, parts)]
-        self.assertLess(max(abs(a - b) for a, b in zip(*energy)) / max(energy[0]), 3e-10)
+        self.compare(whole, parts, bound=1.4e-10, times=False)
 
     def test_other_fluid_ranks_on_a_refining_mesh(self):
         self.case(sections={"fluid": {"refinement": {"levels": 1}}})
