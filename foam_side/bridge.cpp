@@ -121,6 +121,7 @@ Bridge::PressureImpulses Bridge::pressure_impulses() const {
     all.turnover += fluid.turnover();
     all.held_back.cells += fluid.held_back().cells;
     all.held_back.impulse += fluid.held_back().impulse;
+    all.held_back.told += fluid.held_back().told;
   }
   all.tension = tension_;
   all.seen += unclaimed_;
@@ -129,6 +130,7 @@ Bridge::PressureImpulses Bridge::pressure_impulses() const {
   Foam::reduce(all.turnover, Foam::sumOp<double>());
   Foam::reduce(all.held_back.cells, Foam::sumOp<long>());
   Foam::reduce(all.held_back.impulse, Foam::sumOp<double>());
+  Foam::reduce(all.held_back.told, Foam::sumOp<double>());
   return all;
 }
 

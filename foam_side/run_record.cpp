@@ -206,8 +206,10 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
       limits_.full_cells += window.full_cells;
-      limits_.held_back.cells += window.held_back.cells;
-      limits_.held_back.impulse = std::max(limits_.held_back.impulse, window.held_back.impulse);
+      if (window.held_back.matters()) {
+        limits_.held_back.cells += window.held_back.cells;
+        limits_.held_back.impulse = std::max(limits_.held_back.impulse, window.held_back.impulse);
+      }
     }
     if (window.replacement) {
       const ReplacementBooks& books = *window.replacement;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <utility>
 
@@ -23,6 +24,14 @@ std::string error(const Json& r, const std::string& book) {
   const std::string path = "/conservation/" + book;
   const Json::json_pointer pointer(path);
   return r.contains(pointer) && r[pointer].is_null() ? "not judged" : fmt::format("{:.1e}", number(r, path));
+}
+/// Of fluid, particles and what is between them, the worst component.
+std::string momentum_of_everything(const Json& r) {
+  const Json errors = r.value("momentum", Json::object()).value("error", Json::array());
+  double worst = -1;
+  for (const Json& component : errors)
+    if (component.is_number()) worst = std::max(worst, component.get<double>());
+  return worst < 0 ? "not judged" : fmt::format("{:.1e}", worst);
 }
 long whole(const Json& json, const std::string& path) {
   return static_cast<long>(number(json, path));
@@ -71,10 +80,12 @@ std::string run_summary(const Json& r) {
                                  whole(r, "/particles/initial"), whole(r, "/particles/inserted"),
                                  whole(r, "/particles/left"), whole(r, "/particles/lost")));
   row("worst relative errors",
-      particles ? fmt::format("liquid volume {}, exchange {}, momentum {}, solid volume {}",
-                              error(r, "liquid_volume"), error(r, "exchange"), error(r, "momentum"),
-                              error(r, "solid_volume"))
-                : fmt::format("liquid volume {}", error(r, "liquid_volume")));
+      particles
+          ? fmt::format(
+                "liquid volume {}, solid volume {}, exchange {}, momentum of particles {}, of everything {}",
+                error(r, "liquid_volume"), error(r, "solid_volume"), error(r, "exchange"),
+                error(r, "momentum"), momentum_of_everything(r))
+          : fmt::format("liquid volume {}", error(r, "liquid_volume")));
   for (const std::string front : {"liquid", "solid"})
     if (const std::string path = "/quantities/" + front + "_front"; r.contains(Json::json_pointer(path)))
       row(front + " front", fmt::format("{:.4g} m", number(r, path)));

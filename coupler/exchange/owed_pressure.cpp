@@ -32,6 +32,7 @@ void OwedPressure::tell(CellValues<BulkFluid>& fluid, const std::vector<double>&
     heard_[cell] = {here->solid_volume, gradient};
     open_[cell] -= given;
     seen_ += given;
+    held_back_.told += norm(given);
     const auto owed = owed_.find(cell);
     if (owed == owed_.end()) continue;
     Vec3 part = 0.5 * pace * relaxation[i] * owed->second.impulse;

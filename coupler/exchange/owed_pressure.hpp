@@ -68,6 +68,8 @@ class OwedPressure {
   struct HeldBack {
     long cells = 0;
     double impulse = 0;  // N s, summed by its size in each bulk cell
+    double told = 0;     // what the fluid gave in that telling, likewise
+    bool matters() const { return impulse > 1e-6 * told; }
   };
   const HeldBack& held_back() const { return held_back_; }
 

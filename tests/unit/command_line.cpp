@@ -143,13 +143,15 @@ TEST(RunSummary, ShowsWhatAUserAsksForFirst) {
     "wall_seconds": {"total": 200, "fluid": 150, "particles": 30, "exchange": 3, "waiting": null},
     "particles": {"initial": 3883, "inserted": 0, "left": 1, "lost": 2, "final": 3880},
     "conservation": {"exchange": 1e-15, "momentum": 2e-3, "solid_volume": 3e-14, "liquid_volume": 4e-6},
+    "momentum": {"error": [1e-12, null, 7e-9]},
     "quantities": {"liquid_front": 0.2, "solid_front": 0.1875},
     "warnings": ["void fraction limited 3 times"]})");
   const std::string text = run_summary(results);
   for (const char* part :
        {"completed", "3:20", "2500 windows, 5000 fluid, 50000 DEM", "fluid 150.0 s (75 %)", "waited 0.0 s",
         "3883 at the start, 0 inserted, 1 left, 2 lost", "exchange 1.0e-15", "liquid volume 4.0e-06",
-        "liquid front           0.2 m", "solid front            0.1875 m", "void fraction limited 3 times"})
+        "momentum of particles 2.0e-03, of everything 7.0e-09", "liquid front           0.2 m",
+        "solid front            0.1875 m", "void fraction limited 3 times"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
 }
 

@@ -76,6 +76,13 @@ TEST(OwedPressure, TellsNothingSteeperThanTheFluidHasBeen) {
   EXPECT_NEAR(owed.owed_in_all().z / 1e-9, 1, 1e-3) << "and keeps it";
   EXPECT_EQ(owed.held_back().cells, 1);
   EXPECT_NEAR(owed.held_back().impulse / 0.5e-9, 1, 1e-3) << "half of it had its turn";
+  EXPECT_NEAR(owed.held_back().told / (4e-16 * window), 1, 1e-12);
+  EXPECT_TRUE(owed.held_back().matters());
+  // The same beside a cell that is full of particles: nobody has to hear of it.
+  CellValues<BulkFluid> two{{3, 5}, {fluid(-4).values[0], fluid(-4).values[0]}};
+  owed.tell(two, {1, 1}, {{3, 5}, {particles(1e-16).values[0], particles(1e6).values[0]}}, window);
+  EXPECT_EQ(owed.held_back().cells, 1);
+  EXPECT_FALSE(owed.held_back().matters());
 }
 
 TEST(OwedPressure, GoesBackToTheFluidWhereParticlesHaveLeft) {

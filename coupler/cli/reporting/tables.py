@@ -70,6 +70,9 @@ def headline(run):
     if run.number("wall_seconds.total"):
         said += f" in {duration(run.number('wall_seconds.total'))}"
     worst = [(name, run.number(f"conservation.{name}")) for name in ("liquid_volume", "solid_volume", "exchange", "momentum")]
+    everything = [error for error in (run.results.get("momentum") or {}).get("error") or [] if error is not None]
+    worst = [(name + " of particles" * (name == "momentum"), error) for name, error in worst]
+    worst += [("momentum of everything", max(everything))] if everything else []
     kept = [f"{name.replace('_', ' ')} {error:.0e}" for name, error in worst if error is not None]
     warnings = len(run.results.get("warnings") or [])
     said += "; conserved to " + ", ".join(kept) if kept else ""
@@ -78,7 +81,7 @@ def headline(run):
 
 def conservation(run):
     """[(what, worst relative error)]."""
-    words = [("exchange", "impulse given by particles = received by fluid + pending"), ("momentum", "momentum ledger"),
+    words = [("exchange", "impulse given by particles = received by fluid + pending"), ("momentum", "impulses on the particles = change of their momentum"),
              ("solid_volume", "solid volume on the bulk grid = volume of the particles"),
              ("liquid_volume", "liquid volume = liquid volume at the start")]
     return [(text, run.number(f"conservation.{key}")) for key, text in words]
