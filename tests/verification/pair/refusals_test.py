@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 from box_case import BoxCase, Cyclic, Particle, Wall
+from clumps import with_clumps
 
 DEMVOF, FOLDER, NAMES = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
 
@@ -85,6 +86,10 @@ patches {{ master {{ type wall; name xlow; patchFields {{}} }} slave {{ $master;
     return case.write()
 
 
+def with_clumps_on_two_ranks():
+    return with_clumps(box("clumps", sections={"particles": {"ranks": 2}}), 2500, [(0.02, 0.02, 0.03)], 1e-5).write()
+
+
 def with_library():
     return replaced(box("library").write(), "fluid/system/controlDict", "startTime 0", 'libs ("libfieldFunctionObjects.so"); startTime 0')
 
@@ -111,6 +116,7 @@ TRIALS = {
                                         "'pair_style gran model hertz tangential history'"]),
     "atom_style_that_is_not_built": (lambda: with_style("atom_style", "atom_style granular", "atom_style superquadric"), 2,
                                      ["in.particles:2: 'atom_style superquadric'", "shape is left out", "'atom_style granular'"]),
+    "clumps_on_two_ranks": (with_clumps_on_two_ranks, 2, ["fix move multisphere", "one rank only", "particles.ranks: 1"]),
     "wall_that_moves_on_one_side": (lambda: box("piston", script_tail=PISTON, extra_files={"particles/p.stl": STL}).write(), 2,
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
