@@ -192,7 +192,8 @@ void project_velocity(Flow& flow) {
   renew_boundary_pressure(flow);
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
-  open_momentum(flow) = -flow.time.deltaTValue() * (left + inertia / eps * (push - of_pressure));
+  if (last && flow.pimple.finalIter())  // until then that of the step before is returned
+    open_momentum(flow) = -flow.time.deltaTValue() * (left + inertia / eps * (push - of_pressure));
 }
 
 }  // namespace demvof
