@@ -110,13 +110,20 @@ bool has_wall_that_moves(const Flow& flow) {
   return false;
 }
 
+/// What it gives at the start it gives for ever; a wall of any other type may begin to move later (omega as a table).
+bool is_constant(const Foam::fvPatchVectorField& patch) {
+  return patch.type() == "fixedValue" || patch.type() == "noSlip" || patch.type() == "movingWallVelocity";
+}
+
 bool has_wall_with_velocity(const Flow& flow) {
   volVectorField U("velocityAtStart", flow.U);
   U.correctBoundaryConditions();  // the velocity that a condition gives, whatever 'value' says
   bool moves = false;
   for (const Foam::fvPatchVectorField& patch : U.boundaryField())
-    if (Foam::isA<Foam::wallPolyPatch>(patch.patch().patch()) && patch.fixesValue())
+    if (Foam::isA<Foam::wallPolyPatch>(patch.patch().patch()) && patch.fixesValue()) {
+      moves = moves || !is_constant(patch);
       for (const vector& velocity : patch) moves = moves || Foam::mag(velocity) > 0;
+    }
   return Foam::returnReduce(moves, Foam::orOp<bool>());
 }
 

@@ -67,10 +67,11 @@ def with_slope():
     return case.write()
 
 
-def with_drum():
-    """The velocity of a wall is what its condition gives, not the 'value' beside it."""
-    case = box("drum", script_tail=PISTON, extra_files={"particles/p.stl": STL})
-    case.sides["x-"] = {**Wall(), "U": "rotatingWallVelocity; origin (0 0 0); axis (1 0 0); omega 1; value uniform (0 0 0)"}
+def with_drum(omega):
+    """The velocity of a wall is what its condition gives, at the start or later, not the 'value' beside it."""
+    case = box(f"drum_{omega[0]}", script_tail=PISTON, extra_files={"particles/p.stl": STL})
+    case.sides["x-"] = {**Wall(), "U": "rotatingWallVelocity; origin (0 0 0); axis (1 0 0); "
+                              f"omega {omega}; value uniform (0 0 0)"}
     return case.write()
 
 
@@ -121,7 +122,8 @@ TRIALS = {
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
                                      ["fix belt (wall/gran", "no wall of the fluid moves"]),
-    "wall_that_moves_on_both": (with_drum, 0, []),
+    "wall_that_moves_on_both": (lambda: with_drum("1"), 0, []),
+    "wall_that_moves_later": (lambda: with_drum("table ((0 0) (1 1))"), 0, []),
     "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
                         ["wall xlow moves with the mesh", "movingWallVelocity does"]),
     "mesh_that_moves_on_one_side": (lambda: shaken("mesh_alone"), 2, ["walls of the fluid's mesh move", "fix move/mesh"]),
