@@ -192,6 +192,9 @@ void Dem::write_restart(const fs::path& file) {
     for_each_fix(*liggghts_, [](LAMMPS_NS::Fix& fix) {
       if (std::string_view(fix.style) == "contacthistory") fix.setup_pre_exchange();
     });
+    // Particles that left a periodic box after the last neighbour list are wrapped in the file: read_restart
+    // takes none from outside.
+    liggghts_->modify->restart_pbc_any = 1;
     std::string name = file.string();
     LAMMPS_NS::WriteRestart(liggghts_.get()).write(name.data());
   });

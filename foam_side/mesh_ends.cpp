@@ -110,7 +110,8 @@ bool has_wall_that_moves(const Flow& flow) {
   return false;
 }
 
-/// What it gives at the start it gives for ever; a wall of any other type may begin to move later (omega as a table).
+/// What it gives at the start it gives for ever; a wall of any other type may begin to move later (omega as a
+/// table).
 bool is_constant(const Foam::fvPatchVectorField& patch) {
   return patch.type() == "fixedValue" || patch.type() == "noSlip" || patch.type() == "movingWallVelocity";
 }

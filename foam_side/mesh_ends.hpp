@@ -24,8 +24,8 @@ std::string slope_without_effect(const Foam::fvMesh& mesh, const GravityTable& g
 
 /// Throws InputError when walls move on one side only: surfaces that the particles' script moves (fix
 /// move/mesh), or the fluid's mesh. A wall of the fluid with a velocity of its own (U: rotatingWallVelocity,
-/// fixedValue) moves, too, also one that starts later; which surface it is, nobody knows. Collective over the fluid side. moved: names of
-/// the script's fixes that move a surface.
+/// fixedValue) moves, too, also one that starts later; which surface it is, nobody knows. Collective over the
+/// fluid side. moved: names of the script's fixes that move a surface.
 void require_same_motion(const Flow& flow, const std::vector<std::string>& moved);
 
 }  // namespace demvof

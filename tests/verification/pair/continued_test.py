@@ -12,7 +12,7 @@ import subprocess
 import sys
 import unittest
 
-from box_case import BoxCase, Open, Particle, Wall, SIDES
+from box_case import BoxCase, Cyclic, Open, Particle, Wall, SIDES
 from histories import differences
 from pair import Pair
 from reporting.run import Run
@@ -28,9 +28,9 @@ class Continued(unittest.TestCase):
     def case(self, fine=(8, 4, 8), **keys):
         beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
                           velocity=(0, 0, -0.3)) for i in range(12)]
+        keys = {"particles": beads, "sides": {side: Open() if side == "z+" else Wall() for side in SIDES}, **keys}
         case = BoxCase(FOLDER / self._testMethodName, (0.04, 0.02, 0.04), fine, (8, 4, 8), 0.03, window=1e-3,
-                       level=0.0174, gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
-                       sides={side: Open() if side == "z+" else Wall() for side in SIDES}, output_interval=5e-3, **keys)
+                       level=0.0174, gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, output_interval=5e-3, **keys)
         self.case_file = case.write()
 
     def run_case(self, name, *options):
@@ -82,6 +82,14 @@ class Continued(unittest.TestCase):
     def test_four_ranks(self):
         self.case(**SOLVED)
         self.check_same("--fluid-ranks", "2", "--particle-ranks", "2", bound=2e-11)
+
+    def test_beads_on_a_periodic_end(self):
+        """When the state is written some are beyond the end, where LIGGGHTS leaves them until its next neighbour list."""
+        beads = [Particle((0.01 + 0.02 * (i % 2), 0.0183 + 1e-4 * i, 0.024 + 0.004 * (i // 2)), 2e-3, 2500,
+                          velocity=(0, 0.1, -0.1)) for i in range(6)]
+        sides = {side: Cyclic() if side[0] == "y" else Open() if side == "z+" else Wall() for side in SIDES}
+        self.case(particles=beads, sides=sides, script_tail="neighbor 2e-3 bin\n", **SOLVED)
+        self.check_same(bound=2e-13)
 
     def test_other_fluid_ranks(self):
         """On one rank, on two, on one again."""
