@@ -46,9 +46,31 @@ def frames(states):
         files["particles/" + name] = (
             '<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData>'
             f'<Piece NumberOfPoints="{len(radii)}"><PointData>{array("id", "Int64", range(1, len(radii) + 1))}'
-            f'{array("radius", "Float64", radii)}{array("velocity", "Float64", velocities, 3)}</PointData>'
+            f'{array("radius", "Float64", radii)}{array("velocity", "Float64", velocities, 3)}'
+            f'{array("spin", "Float64", [(0.0, 0.0, 0.0)] * len(radii), 3)}</PointData>'
             f'<Points>{array("position", "Float64", positions, 3)}</Points></Piece></PolyData></VTKFile>')
     files["particles/particles.pvd"] = f'<VTKFile type="Collection"><Collection>{index}</Collection></VTKFile>'
+    return files
+
+
+def one_cell(lower, upper, values):
+    """Texts of an OpenFOAM case with one cell, a box; values: time -> field -> (kind, uniform value)."""
+    def foam(kind, name, text):
+        return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n{text}\n"
+
+    corners = [(x, y, z) for z in (lower[2], upper[2]) for y in (lower[1], upper[1]) for x in (lower[0], upper[0])]
+    faces = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+    mesh = {"points": ("vectorField", "8(" + " ".join("({} {} {})".format(*point) for point in corners) + ")"),
+            "faces": ("faceList", "6(" + " ".join("4({} {} {} {})".format(*face) for face in faces) + ")"),
+            "owner": ("labelList", "6(0 0 0 0 0 0)"), "neighbour": ("labelList", "0()"),
+            "boundary": ("polyBoundaryMesh", "1(wall { type wall; nFaces 6; startFace 0; })")}
+    files = {f"fluid/constant/polyMesh/{name}": foam(kind, name, text) for name, (kind, text) in mesh.items()}
+    files["fluid/system/controlDict"] = foam("dictionary", "controlDict", f"startTime 0; endTime {max(values)}; deltaT 1; "
+                                             "writeControl timeStep; writeInterval 1;")
+    for time, fields in values.items():
+        for name, (kind, value) in fields.items():
+            files[f"fluid/{time:g}/{name}"] = foam(kind, name, f"dimensions [0 0 0 0 0 0 0];\ninternalField uniform {value};\n"
+                                                   "boundaryField { wall { type calculated; } }")
     return files
 
 
@@ -255,6 +277,37 @@ class CaseChecks(unittest.TestCase):
         self.expect(case, results(**books), table, "force of floor", tables(0.985))
         self.expect(case, results(**books), table, "force of floor", tables(1.015))
         self.expect(case, results(**books, conservation__liquid_volume=1e-4), table, "liquid volume", tables(1.0))
+
+    def test_rotating_drum(self):
+        lower, upper, bead, mass = (0.001, -0.01, 0), (0.003, 0.01, 0.02), 0.03, 2500 * math.pi / 6 * 4e-3**3
+        water = 0.9 * 1000 * 0.002 * 0.02 * 0.02  # kg; its centre is at x = 2 mm
+        weight, shear, speed = -9.81 * (water * 0.002 + mass * bead), -1e-6, 0.04
+        times = (0.1, 0.25, 0.4, 1.0, 2.0, 3.0)
+
+        def run(rest=1.0, turning=1.0, faster=0.0):
+            """The wall's torque over what it has to be; faster: what water and bead have gained by the end, m/s along y."""
+            stored = faster * (water * 0.002 + mass * bead) / 2  # N m
+            log = "    Step    Atoms         torque          omega\n"
+            moment = "# Time (total) (pressure) (viscous)\n"
+            for n in range(1, 151):
+                contact = (rest if n <= 20 else turning) * (weight - shear - (stored if n > 50 else 0))
+                log += f"  {400 * n} 1000 {contact!r} 1\nLoop time of 1 on 1 procs for 40 steps with 1000 atoms\n"
+                moment += f"{0.02 * n:g} (0 0 {shear}) (0 0 0) (0 0 {shear})\n"
+            velocity = {time: (0.0, speed + (faster if time == 3 else 0), 0.0) for time in times}
+            fields = {time: {"alpha.water": ("volScalarField", 1), "voidFraction": ("volScalarField", 0.9),
+                             "U": ("volVectorField", "({} {} {})".format(*velocity[time]))} for time in times}
+            states = {time: ([(bead, -0.02, 0.01)], [2e-3], [velocity[time]]) for time in times}
+            return {"particles.log": log, "fluid/postProcessing/drum/0/moment.dat": moment,
+                    **one_cell(lower, upper, fields), **frames(states)}
+
+        case, table = "rotating_drum", history(time=[0, 3])
+        self.expect(case, results(), table, "", run())
+        self.expect(case, results(), table, "", run(faster=0.02))
+        self.expect(case, results(), table, "turning", run(turning=1.03))
+        self.expect(case, results(), table, "turning", run(turning=0.97))
+        self.expect(case, results(), table, "at rest", run(rest=1.03))
+        self.expect(case, results(particles__lost=1), table, "lost", run())
+        self.expect(case, results(conservation__exchange=1e-11), table, "exchange", run())
 
     def test_no_run_is_no_verdict(self):
         done = subprocess.run([sys.executable, CASES / "hydrostatic_bed" / "check.py", "/nowhere"], capture_output=True,
