@@ -59,8 +59,9 @@ def contents(run, fluid, time):
 
 def contacts(run):
     """Rows of time, s, and torque of the beads on the wall, N m, the mean over the 20 ms before."""
-    rows = re.findall(r"^ *(\d+) +\d+ +(\S+) +\S+ *$", (run.folder / "particles.log").read_text(), re.MULTILINE)
-    table = dict((int(step), float(torque)) for step, torque in rows[1:])
+    logs = [*sorted((run.folder / "earlier").glob("particles_*.log")), run.folder / "particles.log"]
+    rows = re.findall(r"^ *(\d+) +\d+ +(\S+) +\S+ *$", "\n".join(log.read_text() for log in logs), re.MULTILINE)
+    table = {int(step): float(torque) for step, torque in rows}
     return numpy.array([(DEM_STEP * step, torque) for step, torque in table.items() if step % 400 == 0])
 
 
