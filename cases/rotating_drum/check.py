@@ -61,8 +61,8 @@ def contacts(run):
     """Rows of time, s, and torque of the beads on the wall, N m, the mean over the 20 ms before."""
     logs = [*sorted((run.folder / "earlier").glob("particles_*.log")), run.folder / "particles.log"]
     rows = re.findall(r"^ *(\d+) +\d+ +(\S+) +\S+ *$", "\n".join(log.read_text() for log in logs), re.MULTILINE)
-    table = {int(step): float(torque) for step, torque in rows}
-    return numpy.array([(DEM_STEP * step, torque) for step, torque in table.items() if step % 400 == 0])
+    table = {int(step): float(torque) for step, torque in reversed(rows)}  # where a run goes on, LIGGGHTS begins with 0
+    return numpy.array([(DEM_STEP * step, torque) for step, torque in sorted(table.items()) if step % 400 == 0])
 
 
 def fluid_on_wall(run):
