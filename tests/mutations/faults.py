@@ -42,7 +42,7 @@ VERDICT = {"^unit_verdict$": ["unit_verdict"]}
 HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$": ["fuzz_handshake"]}
 CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
-CONTINUED = {"^pair.continued$": PAIR}
+CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refusals"))
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
 PLACES = {"^faults_places$": [*PAIR, "failing_files"]}
 
@@ -324,6 +324,8 @@ FAULTS = [
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
     ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
+    ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
+    ("foam_side/mesh_ends.cpp", "moves = moves || !is_constant(patch);", "", REFUSALS),
     ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "entry", CONTINUED),
     ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1", CONTINUED),
     ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", WRONG_USE),
