@@ -19,6 +19,7 @@ SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 ACROSS = {"^foam_flow.StiffDrag$": ["foam_flow_test"]}
+SOLVER = {"^foam_flow.PressureSolver$": ["foam_flow_test"]}
 THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}
 DRIVEN = {"^pair.driven_channel$": PAIR}
@@ -275,6 +276,11 @@ FAULTS = [
     ("foam_side/project_velocity.cpp", "flow.U.primitiveFieldRef() += push / eps;", "", SETTLING),
     ("foam_side/predict_momentum.cpp", "flow.source && number > most_of_corrections;", "flow.source && number > 1e30 * most_of_corrections;", THICK),
     ("foam_side/predict_momentum.cpp", "equationRelaxationFactor(name) == 1)", "equationRelaxationFactor(name) == 100)", ALONE),
+    ("foam_side/pressure_solver.cpp", "cells < many_cells ||", "cells > many_cells ||", SOLVER),
+    ("foam_side/pressure_solver.cpp", "|| !entry || !entry->isDict()", "", SOLVER),
+    ("foam_side/pressure_solver.cpp", """if (solver.get<Foam::word>("solver") != "PCG") return {};""", "", SOLVER),
+    ("foam_side/pressure_solver.cpp", "solver.isDict(\"preconditioner\") || ", "", SOLVER),
+    ("foam_side/pressure_solver.cpp", """ || solver.get<Foam::word>("preconditioner") == "GAMG")""", ")", SOLVER),
     # ---- clumps
     ("dem_side/clumps.cpp", "pass < 3", "pass < 0", CLUMPS),
     ("dem_side/clumps.cpp", "fix_->data().reset_forces(true);", "", CLUMPS),
