@@ -72,7 +72,7 @@ class Lines {
       chatter_.push_back(text);
     } else {
       said_something_ = said_something_ || !text.empty();
-      on_line_(printable_lines(text));
+      on_line_(text);
     }
   }
   std::function<void(const std::string&)> on_line_;
@@ -191,7 +191,8 @@ End launch(const LaunchCommand& command, const Watch& watch) {
   count_stop_signals();
   ChildProcess programs(command.words, options);
   close(pipe_ends[1]);
-  Lines lines(watch.on_line);
+  const auto show = [&watch](const std::string& text) { watch.on_line(printable_lines(text)); };
+  Lines lines(show);
   Forgotten forgotten;
   int passed_on = 0;
   bool killed = false;
@@ -217,7 +218,7 @@ End launch(const LaunchCommand& command, const Watch& watch) {
   if (passed_on == 0 && !killed)
     if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
         !end.empty())
-      watch.on_line(end);
+      show(end);
   return {run_exit_code(*code, command.pair, passed_on > 0), passed_on > 0};
 }
 

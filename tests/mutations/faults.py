@@ -325,7 +325,7 @@ FAULTS = [
     ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
-    ("coupler/cli/launch.cpp", "on_line_(printable_lines(text));", "on_line_(text);", WRONG_USE),
+    ("coupler/cli/launch.cpp", "watch.on_line(printable_lines(text));", "watch.on_line(text);", LAUNCH),
     ("coupler/cli/run_command.cpp", "end.code == 3 && end.user_asked", "false", WRONG_USE),
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
     ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),

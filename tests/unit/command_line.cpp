@@ -85,6 +85,21 @@ TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
   fs::remove_all(folder);
 }
 
+/// Neither as the programs' own words nor as those of mpirun, which are shown when there are no others.
+TEST(Launch, SpellsOutControlCharacters) {
+  const std::string rule(70, '-');
+  for (const std::string& output : {std::string("\033[2J\n"), rule + "\n\033[2J\n" + rule + "\n"}) {
+    LaunchCommand command;
+    command.words = {"sh", "-c", "printf '%s' \"$0\"; exit 3", output};
+    std::string said;
+    Watch watch;
+    watch.on_line = [&](const std::string& line) { said += line; };
+    watch.on_tick = [] {};
+    EXPECT_EQ(launch(command, watch).code, 3);
+    EXPECT_EQ(said, "\\x1b[2J");
+  }
+}
+
 TEST(ChildProcess, NamesAProgramThatDoesNotStart) {
   try {
     ChildProcess({"no_such_program_at_all"});
