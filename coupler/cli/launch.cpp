@@ -167,6 +167,12 @@ int run_exit_code(int code, bool pair, bool ended_by_user) {
   return code > 128 && pair && !ended_by_user ? 4 : 3;
 }
 
+int confirmed(const End& end, const std::string& status) {
+  const bool completed = status == "completed";
+  if (completed && end.code == 3 && end.user_asked) return 0;
+  return end.code == 0 && !completed ? 3 : end.code;
+}
+
 std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by, bool said_something) {
   if (command.words.front() != "mpirun" || (killed_by == 0 && (code == 0 || said_something))) return {};
   const std::string how = killed_by

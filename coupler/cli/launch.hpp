@@ -45,6 +45,11 @@ End launch(const LaunchCommand& command, const Watch& watch);
 /// The run's exit code from that of mpirun, or of a program alone.
 int run_exit_code(int code, bool pair, bool ended_by_user);
 
+/// The exit code of a run whose results.json has this status: mpirun's word and results.json have to agree
+/// before a run counts as done. A stop that the user asked for when all was done may have met mpirun in its
+/// end.
+int confirmed(const End& end, const std::string& status);
+
 /// What to say when mpirun itself was killed by a signal, or ended badly before the programs said a word;
 /// empty otherwise.
 std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by, bool said_something);

@@ -31,14 +31,6 @@ std::vector<std::string> program_arguments(const CaseOptions& options, const Run
   return arguments;
 }
 
-/// mpirun's word and results.json have to agree before a run counts as done. A stop that the user asked for
-/// when all was done may have met mpirun in its end.
-int confirmed(const End& end, const nlohmann::ordered_json& results) {
-  const bool completed = results.is_object() && results.value("status", "") == "completed";
-  if (completed && end.code == 3 && end.user_asked) return 0;
-  return end.code == 0 && !completed ? 3 : end.code;
-}
-
 /// Tells a file from one that has taken its place.
 fs::file_time_type time_of(const fs::path& file) {
   std::error_code none;
@@ -107,7 +99,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
   // What was there before is the result of the run as it was.
   const bool of_this_run = time_of(results_file(folder)) != before;
   const nlohmann::ordered_json results = of_this_run ? read_results(folder.path()) : nlohmann::ordered_json();
-  const int code = confirmed(end, results);
+  const int code = confirmed(end, results.is_object() ? results.value("status", "") : "");
   if (run.continues && code == 2) return code;
   if (!run.quiet || code != 0) print_end(code, results, folder, said_something);
   return code;

@@ -326,7 +326,7 @@ FAULTS = [
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
     ("coupler/cli/launch.cpp", "watch.on_line(printable_lines(text));", "watch.on_line(text);", LAUNCH),
-    ("coupler/cli/run_command.cpp", "end.code == 3 && end.user_asked", "false", WRONG_USE),
+    ("coupler/cli/launch.cpp", "end.code == 3 && end.user_asked", "false", LAUNCH),
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
     ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),

@@ -53,6 +53,16 @@ TEST(RunExitCode, CountsASideKilledByASignalAsALostPartner) {
   EXPECT_EQ(run_exit_code(1, true, false), 3) << "mpirun itself failed";
 }
 
+TEST(RunExitCode, AgreesWithTheResults) {
+  EXPECT_EQ(confirmed({0, false}, "completed"), 0);
+  EXPECT_EQ(confirmed({0, false}, ""), 3) << "there are none";
+  EXPECT_EQ(confirmed({0, false}, "failed"), 3);
+  EXPECT_EQ(confirmed({3, false}, "completed"), 3);
+  EXPECT_EQ(confirmed({3, true}, "completed"), 0) << "stopped when all was done";
+  EXPECT_EQ(confirmed({3, true}, "interrupted"), 3);
+  EXPECT_EQ(confirmed({4, true}, "completed"), 4);
+}
+
 TEST(ChildProcess, TellsItsExitCodeAndItsSignal) {
   EXPECT_EQ(ChildProcess({"sh", "-c", "exit 7"}).wait(), 7);
   EXPECT_EQ(ChildProcess({"sh", "-c", "kill -9 $$"}).wait(), 128 + 9);
