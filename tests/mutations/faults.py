@@ -332,7 +332,7 @@ FAULTS = [
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
     ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
     ("foam_side/mesh_ends.cpp", "moves = moves || !is_constant(patch);", "", REFUSALS),
-    ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "entry", CONTINUED),
+    ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "0 * cell * width + entry", CONTINUED),
     ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1", CONTINUED),
     ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", WRONG_USE),
     ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
