@@ -42,6 +42,7 @@ STATES = {"^unit_restart_point$": ["unit_restart_point"]}
 VERDICT = {"^unit_verdict$": ["unit_verdict"]}
 HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$": ["fuzz_handshake"]}
 CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
+GATHERED = {"^unit_gathered_state$": ["unit_gathered_state"]}
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
 CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refusals"))
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
@@ -332,11 +333,11 @@ FAULTS = [
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
     ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
     ("foam_side/mesh_ends.cpp", "moves = moves || !is_constant(patch);", "", REFUSALS),
-    ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "0 * cell * width + entry", CONTINUED),
-    ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1", CONTINUED),
+    ("foam_side/gathered_state.cpp", "static_cast<std::size_t>(cell) * width + entry", "0 * cell * width + entry", GATHERED),
+    ("foam_side/gathered_state.cpp", "first ? 1 : 0", "1 + 0 * first", GATHERED),
     ("dem_side/possible_particles.cpp", "if (place(i) != place(j)) continue;", "continue;", WRONG_USE),
     ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
-     """{"--continue (checksum of the state)", ""}""", WRONG_USE),
+     """{"--continue (checksum of the state)", state.substr(0, 0)}""", WRONG_USE),
     ("coupler/output/restart_point.cpp", "  require_folders(run);\n", "", PLACES),
     ("coupler/output/run_lock.cpp", "if (fcntl(file_, F_SETLK, &lock) != 0) {", "if (false) {", PLACES),
     ("coupler/cli/run_folder.cpp", "if (faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0)", "if (false)", PLACES),
