@@ -32,7 +32,13 @@ if(OpenFOAM_PROJECT_DIR)
   list(APPEND DEMVOF_MPI_ENVIRONMENT WM_PROJECT_DIR=${OpenFOAM_PROJECT_DIR})
 endif()
 
-set(DEMVOF_TIMEOUT_FACTOR 1 CACHE STRING "Factor on the time limits of tests that start ranks")
+set(DEMVOF_TIMEOUT_FACTOR 1 CACHE STRING "Factor on the time limits of tests, for slow builds")
+
+# demvof_limit_time(seconds test...)
+function(demvof_limit_time seconds)
+  math(EXPR stretched "${seconds} * ${DEMVOF_TIMEOUT_FACTOR}")
+  set_tests_properties(${ARGN} PROPERTIES TIMEOUT ${stretched})
+endfunction()
 
 function(demvof_add_mpi_test)
   cmake_parse_arguments(PARSE_ARGV 0 ARG "LONG" "NAME;TIMEOUT;PARTNER_RANKS"

