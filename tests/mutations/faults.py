@@ -339,7 +339,7 @@ FAULTS = [
     ("coupler/link/handshake_items.hpp", """{"--continue (checksum of the state)", state}""",
      """{"--continue (checksum of the state)", state.substr(0, 0)}""", WRONG_USE),
     ("coupler/output/restart_point.cpp", "  require_folders(run);\n", "  if (run.empty()) require_folders(run);\n", PLACES),
-    ("coupler/output/run_lock.cpp", "if (fcntl(file_, F_SETLK, &lock) != 0) {", "if (fcntl(file_, F_SETLK, &lock) > 0) {", PLACES),
+    ("coupler/output/run_lock.cpp", "if (fcntl(file_, F_SETLK, &lock) != 0) {", "if (fcntl(file_, F_SETLK, &lock) > 0) {", LAUNCH),
     ("coupler/cli/run_folder.cpp", "if (faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0)", "if (false)", PLACES),
     ("coupler/link/watch.cpp", "if (longest_stop_ == 0) continue;", "continue;", PLACES),
     ("coupler/link/signals.cpp", "signal(SIGXFSZ, SIG_IGN);", "", PLACES),

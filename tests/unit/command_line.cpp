@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the demvof command that need no solver: quoting, exit codes, progress, summary, run folders.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +17,7 @@
 #include "coupler/cli/progress_display.hpp"
 #include "coupler/cli/run_folder.hpp"
 #include "coupler/cli/summary.hpp"
+#include "coupler/output/run_lock.hpp"
 
 namespace demvof {
 namespace {
@@ -117,6 +121,30 @@ TEST(ChildProcess, NamesAProgramThatDoesNotStart) {
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "cannot start no_such_program_at_all: No such file or directory");
   }
+}
+
+/// For the programs of two runs by hand, which no command of demvof looks after.
+TEST(RunLock, IsHeldByOneProcessForEachPart) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("demvof_lock_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::array<int, 2> ready;
+  ASSERT_EQ(pipe(ready.data()), 0);
+  const pid_t other = fork();
+  if (other == 0) {
+    const RunLock lock(folder, RunLock::Part::fluid);
+    if (write(ready[1], "!", 1) == 1) pause();
+    _exit(1);
+  }
+  char sign = 0;
+  ASSERT_EQ(read(ready[0], &sign, 1), 1);
+  EXPECT_THROW(RunLock(folder, RunLock::Part::fluid), InputError);
+  EXPECT_THROW(RunLock(folder, RunLock::Part::command), InputError);
+  EXPECT_NO_THROW(RunLock(folder, RunLock::Part::particles));
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
+  EXPECT_NO_THROW(RunLock(folder, RunLock::Part::fluid)) << "who was killed holds nothing";
+  for (const int end : ready) close(end);
+  fs::remove_all(folder);
 }
 
 TEST(Clock, CountsSecondsMinutesHours) {
