@@ -66,7 +66,8 @@ class LogFile : public std::filebuf {
   int error_ = 0;
 };
 
-LogFile log_file;
+// Never destroyed: std::cout writes into it until the very end of the program.
+LogFile& log_file = *new LogFile;
 fs::path log_name;
 
 }  // namespace
