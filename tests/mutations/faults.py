@@ -24,7 +24,7 @@ THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}
 DRIVEN = {"^pair.driven_channel$": PAIR}
 HALF = {"^pair.half_submerged$": PAIR}
-FILMS = {r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
+FILMS = {"^unit_lubrication$": ["unit_lubrication"], r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
 CLUMPS = {r"^mock_dem_clumps\.": ["mock_dem_clumps"]}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
