@@ -36,7 +36,7 @@ def demvof(case_file, out, *options, fault=None, silence=60):
     """Exit code and what was printed; silence: s in which a run that lives leaves a trace."""
     environment = dict(os.environ)
     if fault:
-        environment.update(LD_PRELOAD=LIBRARY, DEMVOF_FAULT=fault)
+        environment.update(LD_PRELOAD=f"{LIBRARY}:{environment.get('LD_PRELOAD', '')}", DEMVOF_FAULT=fault)
     force = [] if "--continue" in options else ["--force"]
     process = subprocess.Popen([DEMVOF, "run", str(case_file), "--out", str(out), *force, *options], env=environment, text=True,
                                errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
