@@ -55,12 +55,11 @@ tmp<volScalarField> set_response(Flow& flow, const volScalarField& A) {
   if (flow.porosity)
     response = with_boundary("eps", flow.mesh, Foam::dimless, flow.porosity->eps.primitiveField()) *
                *system.inverse_diagonal;  // at its ends, too, that of the cell
-  system.response = std::make_unique<surfaceScalarField>("response", fvc::interpolate(response()));
   if (flow.source) {
     system.face_drag = std::make_unique<FaceDrag>(flow, A, system.force);
     system.mobility = std::make_unique<surfaceScalarField>("rAUf", system.face_drag->mobility());
   } else {
-    system.mobility = std::make_unique<surfaceScalarField>("rAUf", *system.response);
+    system.mobility = std::make_unique<surfaceScalarField>("rAUf", fvc::interpolate(response()));
   }
   return response;
 }

@@ -14,7 +14,6 @@ struct PressureSystem {
   std::unique_ptr<Foam::fvVectorMatrix> sources;   // what of it fvOptions give; none: nullptr
   Foam::vectorField force;  // of the particles, with what the last step left open, N/m3
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg
-  std::unique_ptr<surfaceScalarField> response;      // a_f = (eps/A)_f: velocity per force, m3 s/kg
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
   std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
