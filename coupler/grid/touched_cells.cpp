@@ -8,40 +8,27 @@
 
 namespace demvof {
 
-void TouchedCells::Shares::find_starts() {
-  for (std::size_t rank = 1; rank < counts.size(); ++rank) starts[rank] = starts[rank - 1] + counts[rank - 1];
-}
-
-TouchedCells::Shares TouchedCells::Shares::scaled(int width) const {
-  Shares result = *this;
-  for (int& count : result.counts) count *= width;
-  for (int& start : result.starts) start *= width;
-  return result;
-}
-
 TouchedCells::TouchedCells(MPI_Comm world, const BulkPartition& partition, std::vector<CellId> cells)
-    : world_(world),
-      cells_(std::move(cells)),
-      to_owners_(partition.ranks()),
-      from_touchers_(partition.ranks()) {
+    : world_(world), cells_(std::move(cells)) {
   int ranks = 0;
   check_mpi(MPI_Comm_size(world_, &ranks), "MPI_Comm_size");
   if (ranks != partition.ranks())
     throw std::invalid_argument("TouchedCells: the partition is of other ranks");
 
   // Owners hold contiguous blocks of cells, so sorted cells are sorted by owner.
-  for (CellId cell : cells_) ++to_owners_.counts[partition.owner(cell)];
-  to_owners_.find_starts();
-  check_mpi(
-      MPI_Alltoall(to_owners_.counts.data(), 1, MPI_INT, from_touchers_.counts.data(), 1, MPI_INT, world_),
-      "MPI_Alltoall of cell counts");
-  from_touchers_.find_starts();
-
-  std::vector<CellId> touched(from_touchers_.total());
-  check_mpi(MPI_Alltoallv(cells_.data(), to_owners_.counts.data(), to_owners_.starts.data(), MPI_INT64_T,
-                          touched.data(), from_touchers_.counts.data(), from_touchers_.starts.data(),
-                          MPI_INT64_T, world_),
-            "MPI_Alltoallv of cell numbers");
+  std::vector<Parcel> parcels;
+  for (std::size_t first = 0; first < cells_.size(); first += to_owners_.back().count) {
+    const int owner = partition.owner(cells_[first]);
+    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = std::lower_bound(begin, cells_.end(), partition.end(owner));
+    to_owners_.push_back({owner, first, static_cast<std::size_t>(end - begin)});
+    parcels.push_back({owner, std::vector<double>(begin, end)});  // cell numbers are exact in a double
+  }
+  std::vector<CellId> touched;
+  for (const Parcel& parcel : exchange_with_unknown(world_, std::move(parcels))) {
+    from_touchers_.push_back({parcel.rank, touched.size(), parcel.numbers.size()});
+    for (const double cell : parcel.numbers) touched.push_back(static_cast<CellId>(cell));
+  }
   owned_ = touched;
   std::sort(owned_.begin(), owned_.end());
   owned_.erase(std::unique(owned_.begin(), owned_.end()), owned_.end());
@@ -51,11 +38,8 @@ TouchedCells::TouchedCells(MPI_Comm world, const BulkPartition& partition, std::
 }
 
 std::vector<double> TouchedCells::sum_rows(const double* rows, int width) const {
-  const Shares out = to_owners_.scaled(width), in = from_touchers_.scaled(width);
-  std::vector<double> received(in.total());
-  check_mpi(MPI_Alltoallv(rows, out.counts.data(), out.starts.data(), MPI_DOUBLE, received.data(),
-                          in.counts.data(), in.starts.data(), MPI_DOUBLE, world_),
-            "MPI_Alltoallv to owners");
+  std::vector<double> received(slot_.size() * width);
+  exchange_with_known(world_, to_owners_, rows, from_touchers_, received.data(), width);
   std::vector<double> sums(owned_.size() * width, 0.0);
   for (std::size_t i = 0; i < slot_.size(); ++i)  // by rank
     for (int k = 0; k < width; ++k) sums[slot_[i] * width + k] += received[i * width + k];
@@ -75,11 +59,8 @@ std::vector<double> TouchedCells::fetch_rows(const std::vector<CellId>& owned, c
   answers.reserve(slot_.size() * width);
   for (const std::size_t slot : slot_) answers.insert(answers.end(), row_of[slot], row_of[slot] + width);
 
-  const Shares out = from_touchers_.scaled(width), in = to_owners_.scaled(width);
-  std::vector<double> fetched(in.total());
-  check_mpi(MPI_Alltoallv(answers.data(), out.counts.data(), out.starts.data(), MPI_DOUBLE, fetched.data(),
-                          in.counts.data(), in.starts.data(), MPI_DOUBLE, world_),
-            "MPI_Alltoallv from owners");
+  std::vector<double> fetched(cells_.size() * width);
+  exchange_with_known(world_, from_touchers_, answers.data(), to_owners_, fetched.data(), width);
   return fetched;
 }
 

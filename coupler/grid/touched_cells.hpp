@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/sparse_exchange.hpp"
 
 namespace demvof {
 
 /// The bulk cells that this rank reads or writes, and the way between them and the ranks of the
-/// same program that own them. Only touched cells are stored or sent.
+/// same program that own them. Only touched cells are stored or sent, and only to the ranks concerned.
 ///
 /// Construction and every call are collective over the communicator. Throws RunError when an MPI call
 /// fails.
@@ -54,21 +55,12 @@ class TouchedCells {
   std::vector<double> fetch_rows(const std::vector<CellId>& owned, const double* rows, int width,
                                  const double* absent) const;
 
-  /// How many cells go to or come from each rank, and where they begin in a list of all.
-  struct Shares {
-    explicit Shares(int ranks) : counts(ranks), starts(ranks) {}
-    void find_starts();
-    int total() const { return counts.empty() ? 0 : starts.back() + counts.back(); }
-    Shares scaled(int width) const;
-    std::vector<int> counts, starts;
-  };
-
   MPI_Comm world_;
   std::vector<CellId> cells_;
-  Shares to_owners_;               // the touched cells of this rank by owner
-  Shares from_touchers_;           // the cells of this rank as owner, by the rank that touches them
-  std::vector<CellId> owned_;      // the union of those
-  std::vector<std::size_t> slot_;  // of each of those in owned_
+  std::vector<RowsOfRank> to_owners_;      // the touched cells of this rank by owner
+  std::vector<RowsOfRank> from_touchers_;  // the cells of this rank as owner, by the rank that touches them
+  std::vector<CellId> owned_;              // the union of those
+  std::vector<std::size_t> slot_;          // of each of those in owned_
 };
 
 }  // namespace demvof

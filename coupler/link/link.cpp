@@ -152,11 +152,9 @@ void Link::receive_rows(std::vector<CellId>& cells, std::vector<double>& rows, i
 
 std::string Link::swap_text(const std::string& mine) {
   finish_sends();
-  if (world_.rank() == 0) {
-    const Words message = words_of(mine);
-    for (int to = 0; to < world_.partner_size(); ++to) post(to, tag_text, message);
-  }
-  return text_in(take(0, tag_text, "a report"));
+  if (world_.rank() != 0) return from_rank_0({});
+  post(0, tag_text, words_of(mine));
+  return from_rank_0(text_in(take(0, tag_text, "a report")));
 }
 
 void Link::send_bytes(const void* bytes, std::size_t size) {

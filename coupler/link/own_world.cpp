@@ -58,9 +58,11 @@ void on_terminate() {
   sudden_end(why.c_str());
 }
 
-MPI_Comm duplicate(MPI_Comm comm) {
+/// name: for debuggers, and for tests/benchmarks/messages.py.
+MPI_Comm duplicate(MPI_Comm comm, const char* name) {
   MPI_Comm copy = MPI_COMM_NULL;
   check_mpi(PMPI_Comm_dup(comm, &copy), "MPI_Comm_dup");
+  check_mpi(PMPI_Comm_set_name(copy, name), "MPI_Comm_set_name");
   check_mpi(PMPI_Comm_set_errhandler(copy, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   return copy;
 }
@@ -73,13 +75,13 @@ OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double start_limit, const
   const StartLimit limit(side, start_limit);
   int provided = 0;
   check_mpi(PMPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
-  pair_->both = duplicate(MPI_COMM_WORLD);
+  pair_->both = duplicate(MPI_COMM_WORLD, "demvof pair");
   int world_rank = 0;
   check_mpi(PMPI_Comm_rank(pair_->both, &world_rank), "MPI_Comm_rank");
 
   MPI_Comm program = MPI_COMM_NULL;
   check_mpi(PMPI_Comm_split(MPI_COMM_WORLD, static_cast<int>(side), world_rank, &program), "MPI_Comm_split");
-  comm_ = duplicate(program);
+  comm_ = duplicate(program, "demvof program");
   check_mpi(PMPI_Comm_rank(comm_, &rank_), "MPI_Comm_rank");
   check_mpi(PMPI_Comm_size(comm_, &size_), "MPI_Comm_size");
 
@@ -98,6 +100,7 @@ OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double start_limit, const
     check_mpi(PMPI_Intercomm_create(comm_, 0, pair_->both, partner_leader_, 0, &pair_->partner),
               "MPI_Intercomm_create");
     check_mpi(PMPI_Comm_set_errhandler(pair_->partner, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+    check_mpi(PMPI_Comm_set_name(pair_->partner, "demvof partner"), "MPI_Comm_set_name");
   }
 
   current = this;

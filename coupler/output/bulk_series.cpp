@@ -5,6 +5,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
+#include "coupler/grid/bring_to_owners.hpp"
 #include "coupler/output/vtk_file.hpp"
 #include "coupler/output/vtk_series.hpp"
 
@@ -14,41 +15,32 @@ namespace demvof {
 
 namespace {
 
-/// All active cells on rank 0, in rank order; empty elsewhere.
-CellValues<BulkFrame> gather_to_root(MPI_Comm world, const CellValues<BulkFrame>& mine) {
-  const int ranks = vtk_file::rank_of(world) == 0 ? vtk_file::size_of(world) : 0;
-  constexpr int width = row_width<BulkFrame>();
-  const int count = static_cast<int>(mine.cells.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts.size());
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
-  CellValues<BulkFrame> all;
-  int total = 0;
-  for (std::size_t r = 0; r < counts.size(); ++r) {
-    starts[r] = total;
-    total += counts[r];
-  }
-  all.cells.resize(static_cast<std::size_t>(total));
-  all.values.resize(static_cast<std::size_t>(total));
-  MPI_Gatherv(mine.cells.data(), count, MPI_INT64_T, all.cells.data(), counts.data(), starts.data(),
-              MPI_INT64_T, 0, world);
-  MPI_Datatype row;
-  MPI_Type_contiguous(width, MPI_DOUBLE, &row);
-  MPI_Type_commit(&row);
-  MPI_Gatherv(mine.values.data(), count, row, all.values.data(), counts.data(), starts.data(), row, 0, world);
-  MPI_Type_free(&row);
-  return all;
+/// Layers of cells across z, by the rank that writes them; a rank may have none.
+BulkPartition layers_of(MPI_Comm world, const BulkGrid& grid) {
+  return {grid.cells()[2], vtk_file::size_of(world)};
 }
 
-void write_bulk(const fs::path& path, const BulkGrid& grid, const CellValues<BulkFrame>& active) {
-  const auto cells = static_cast<std::size_t>(grid.cell_count());
+CellId cells_in_layer(const BulkGrid& grid) {
+  return CellId{grid.cells()[0]} * grid.cells()[1];
+}
+
+std::string extent(const BulkGrid& grid, CellId first, CellId last) {
+  return fmt::format("\"0 {} 0 {} {} {}\"", grid.cells()[0], grid.cells()[1], first, last);
+}
+
+/// A piece of the grid: the layers from first to before last.
+void write_layers(const fs::path& path, const BulkGrid& grid, CellId first, CellId last,
+                  const CellValues<BulkFrame>& active) {
+  const CellId begin = first * cells_in_layer(grid);
+  const auto cells = static_cast<std::size_t>((last - first) * cells_in_layer(grid));
   std::vector<BulkFrame> frames(cells);
   vtkNew<vtkUnsignedCharArray> is_active;
   is_active->SetName("active");
-  is_active->SetNumberOfTuples(grid.cell_count());
+  is_active->SetNumberOfTuples(static_cast<vtkIdType>(cells));
   is_active->FillValue(0);
   for (std::size_t i = 0; i < active.cells.size(); ++i) {
-    frames[static_cast<std::size_t>(active.cells[i])] = active.values[i];
-    is_active->SetValue(active.cells[i], 1);
+    frames[static_cast<std::size_t>(active.cells[i] - begin)] = active.values[i];
+    is_active->SetValue(active.cells[i] - begin, 1);
   }
   std::vector<double> void_fraction(cells);
   std::vector<Vec3> velocity(cells), gradient(cells), drag(cells);
@@ -59,7 +51,7 @@ void write_bulk(const fs::path& path, const BulkGrid& grid, const CellValues<Bul
     drag[c] = frames[c].drag;
   }
   vtkNew<vtkImageData> image;
-  image->SetDimensions(grid.cells()[0] + 1, grid.cells()[1] + 1, grid.cells()[2] + 1);
+  image->SetExtent(0, grid.cells()[0], 0, grid.cells()[1], static_cast<int>(first), static_cast<int>(last));
   image->SetOrigin(grid.lower().x, grid.lower().y, grid.lower().z);
   image->SetSpacing(grid.spacing().x, grid.spacing().y, grid.spacing().z);
   image->GetCellData()->AddArray(is_active);
@@ -70,6 +62,27 @@ void write_bulk(const fs::path& path, const BulkGrid& grid, const CellValues<Bul
   vtk_file::write<vtkXMLImageDataWriter>(path, image.Get());
 }
 
+void write_index(const fs::path& path, const BulkGrid& grid, MPI_Comm world, const std::string& stem) {
+  std::string arrays = "<PCellData>\n<PDataArray type=\"UInt8\" Name=\"active\"/>\n";
+  arrays += vtk_file::declared_array("void_fraction", 1);
+  for (const char* name : {"fluid_velocity", "pressure_gradient", "drag"})
+    arrays += vtk_file::declared_array(name, 3);
+  arrays += "</PCellData>\n";
+  const BulkPartition layers = layers_of(world, grid);
+  std::vector<std::string> pieces;
+  for (int rank = 0; rank < layers.ranks(); ++rank)
+    if (layers.begin(rank) < layers.end(rank))
+      pieces.push_back(fmt::format("Extent={} Source=\"{}\"",
+                                   extent(grid, layers.begin(rank), layers.end(rank)),
+                                   vtk_file::piece_name(world, stem, "vti", rank)));
+  const Vec3 &origin = grid.lower(), &spacing = grid.spacing();
+  vtk_file::write_pieces(path, "PImageData",
+                         fmt::format(" WholeExtent={} Origin=\"{} {} {}\" Spacing=\"{} {} {}\"",
+                                     extent(grid, 0, grid.cells()[2]), origin.x, origin.y, origin.z,
+                                     spacing.x, spacing.y, spacing.z),
+                         arrays, pieces);
+}
+
 }  // namespace
 
 BulkSeries::BulkSeries(MPI_Comm world, BulkGrid grid, const fs::path& folder,
@@ -77,12 +90,24 @@ BulkSeries::BulkSeries(MPI_Comm world, BulkGrid grid, const fs::path& folder,
     : VtkSeries(world, folder, name, continued_from), grid_(std::move(grid)) {}
 
 void BulkSeries::write(double time, const CellValues<BulkFrame>& active) {
-  const std::string file = fmt::format("{}_{:06}.vti", name_, count_++);
-  const CellValues<BulkFrame> all = gather_to_root(world_, active);
+  const std::string stem = fmt::format("{}_{:06}", name_, count_++);
+  const BulkPartition layers = layers_of(world_, grid_);
+  const CellValues<BulkFrame> mine = bring_to(
+      world_, [&](CellId cell) { return layers.owner(cell / cells_in_layer(grid_)); }, active);
+  vtk_file::on_all_ranks(world_, folder_, [&] {
+    const int rank = vtk_file::rank_of(world_);
+    if (layers.begin(rank) < layers.end(rank))
+      write_layers(folder_ / vtk_file::piece_name(world_, stem, "vti", rank), grid_, layers.begin(rank),
+                   layers.end(rank), mine);
+  });
   vtk_file::on_all_ranks(world_, folder_, [&] {
     if (vtk_file::rank_of(world_) != 0) return;
-    write_bulk(folder_ / file, grid_, all);
-    index_.add(time, file);
+    std::string whole = stem + ".vti";
+    if (layers.ranks() > 1) {
+      whole = stem + ".pvti";
+      write_index(folder_ / whole, grid_, world_, stem);
+    }
+    index_.add(time, whole);
   });
 }
 

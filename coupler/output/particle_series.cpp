@@ -62,17 +62,16 @@ void write_piece(const fs::path& path, const ParticleFrame& frame) {
   vtk_file::write<vtkXMLPolyDataWriter>(path, data.Get());
 }
 
-/// The file that shows several pieces as one (VTK's parallel writer needs VTK's own MPI layer).
-void write_pieces_index(const fs::path& path, const std::vector<std::string>& pieces) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PPolyData\" version=\"0.1\">\n"
-      "<PPolyData GhostLevel=\"0\">\n<PPointData>\n"
-      "<PDataArray type=\"Int64\" Name=\"id\"/>\n<PDataArray type=\"Float64\" Name=\"radius\"/>\n";
+void write_index(const fs::path& path, MPI_Comm world, const std::string& stem) {
+  std::string arrays = "<PPointData>\n<PDataArray type=\"Int64\" Name=\"id\"/>\n";
+  arrays += vtk_file::declared_array("radius", 1);
   for (const auto& [name, values] : named_vectors(ParticleFrame{}))
-    text += fmt::format("<PDataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"3\"/>\n", name);
-  text += "</PPointData>\n<PPoints>\n<PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
-  for (const std::string& piece : pieces) text += fmt::format("<Piece Source=\"{}\"/>\n", piece);
-  write_file_atomically(path, text + "</PPolyData>\n</VTKFile>\n");
+    arrays += vtk_file::declared_array(name, 3);
+  arrays += "</PPointData>\n<PPoints>\n" + vtk_file::declared_array("Points", 3) + "</PPoints>\n";
+  std::vector<std::string> pieces;
+  for (int rank = 0; rank < vtk_file::size_of(world); ++rank)
+    pieces.push_back(fmt::format("Source=\"{}\"", vtk_file::piece_name(world, stem, "vtp", rank)));
+  vtk_file::write_pieces(path, "PPolyData", "", arrays, pieces);
 }
 
 }  // namespace
@@ -82,23 +81,17 @@ ParticleSeries::ParticleSeries(MPI_Comm world, const fs::path& folder, std::opti
     : VtkSeries(world, folder, name, continued_from) {}
 
 void ParticleSeries::write(double time, const ParticleFrame& frame) {
-  const int my_rank = vtk_file::rank_of(world_), ranks = vtk_file::size_of(world_);
   const std::string stem = fmt::format("{}_{:06}", name_, count_++);
-  const auto piece = [&](int rank) {
-    return ranks == 1 ? stem + ".vtp" : fmt::format("{}_{}.vtp", stem, rank);
-  };
   vtk_file::on_all_ranks(world_, folder_, [&] {
     check_lengths(frame);
-    write_piece(folder_ / piece(my_rank), frame);
+    write_piece(folder_ / vtk_file::piece_name(world_, stem, "vtp", vtk_file::rank_of(world_)), frame);
   });
   vtk_file::on_all_ranks(world_, folder_, [&] {
-    if (my_rank != 0) return;
-    std::string whole = piece(0);
-    if (ranks > 1) {
-      std::vector<std::string> pieces;
-      for (int rank = 0; rank < ranks; ++rank) pieces.push_back(piece(rank));
+    if (vtk_file::rank_of(world_) != 0) return;
+    std::string whole = stem + ".vtp";
+    if (vtk_file::size_of(world_) > 1) {
       whole = stem + ".pvtp";
-      write_pieces_index(folder_ / whole, pieces);
+      write_index(folder_ / whole, world_, stem);
     }
     index_.add(time, whole);
   });

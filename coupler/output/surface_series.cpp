@@ -15,22 +15,6 @@ namespace fs = std::filesystem;
 namespace demvof {
 namespace {
 
-/// All corners on rank 0, in rank order; empty elsewhere.
-std::vector<Vec3> gather_to_root(MPI_Comm world, const std::vector<Vec3>& mine) {
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  const int count = 3 * static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(vtk_file::size_of(world))), starts(counts.size());
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
-  int total = 0;
-  for (std::size_t r = 0; r < counts.size(); ++r) {
-    starts[r] = total;
-    total += counts[r];
-  }
-  std::vector<Vec3> all(vtk_file::rank_of(world) == 0 ? static_cast<std::size_t>(total) / 3 : 0);
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, world);
-  return all;
-}
-
 void write_triangles(const fs::path& path, const std::vector<Vec3>& corners) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -45,6 +29,14 @@ void write_triangles(const fs::path& path, const std::vector<Vec3>& corners) {
   vtk_file::write<vtkXMLPolyDataWriter>(path, data.Get());
 }
 
+void write_index(const fs::path& path, MPI_Comm world, const std::string& stem) {
+  std::vector<std::string> pieces;
+  for (int rank = 0; rank < vtk_file::size_of(world); ++rank)
+    pieces.push_back(fmt::format("Source=\"{}\"", vtk_file::piece_name(world, stem, "vtp", rank)));
+  vtk_file::write_pieces(path, "PPolyData", "",
+                         "<PPoints>\n" + vtk_file::declared_array("Points", 3) + "</PPoints>\n", pieces);
+}
+
 bool same(const std::vector<Vec3>& some, const std::vector<Vec3>& others) {
   return std::equal(some.begin(), some.end(), others.begin(), others.end(),
                     [](const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; });
@@ -57,15 +49,20 @@ SurfaceSeries::SurfaceSeries(MPI_Comm world, const fs::path& folder, std::option
     : VtkSeries(world, folder, name, continued_from) {}
 
 void SurfaceSeries::write(double time, const std::vector<Vec3>& corners) {
-  const std::string file = fmt::format("{}_{:06}.vtp", name_, count_++);
-  const std::vector<Vec3> all = gather_to_root(world_, corners);
+  const std::string stem = fmt::format("{}_{:06}", name_, count_++);
+  int moved = file_.empty() || !same(corners, written_);
+  MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_INT, MPI_MAX, world_);
+  if (moved) {
+    vtk_file::on_all_ranks(world_, folder_, [&] {
+      write_triangles(folder_ / vtk_file::piece_name(world_, stem, "vtp", vtk_file::rank_of(world_)),
+                      corners);
+    });
+    written_ = corners;
+    file_ = stem + (vtk_file::size_of(world_) > 1 ? ".pvtp" : ".vtp");
+  }
   vtk_file::on_all_ranks(world_, folder_, [&] {
     if (vtk_file::rank_of(world_) != 0) return;
-    if (file_.empty() || !same(all, written_)) {
-      write_triangles(folder_ / file, all);
-      written_ = all;
-      file_ = file;
-    }
+    if (moved && vtk_file::size_of(world_) > 1) write_index(folder_ / file_, world_, stem);
     index_.add(time, file_);
   });
 }

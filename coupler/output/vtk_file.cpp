@@ -48,6 +48,25 @@ vtkSmartPointer<vtkDoubleArray> array(const char* name, const std::vector<Vec3>&
   return result;
 }
 
+std::string piece_name(MPI_Comm world, const std::string& stem, const std::string& ending, int rank) {
+  return size_of(world) == 1 ? fmt::format("{}.{}", stem, ending)
+                             : fmt::format("{}_{}.{}", stem, rank, ending);
+}
+
+void write_pieces(const fs::path& path, const std::string& type, const std::string& attributes,
+                  const std::string& arrays, const std::vector<std::string>& pieces) {
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"0.1\">\n<{0} GhostLevel=\"0\"{1}>\n{2}", type,
+      attributes, arrays);
+  for (const std::string& piece : pieces) text += fmt::format("<Piece {}/>\n", piece);
+  write_file_atomically(path, text + fmt::format("</{}>\n</VTKFile>\n", type));
+}
+
+std::string declared_array(const std::string& name, int components) {
+  return fmt::format("<PDataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\"/>\n", name,
+                     components);
+}
+
 }  // namespace vtk_file
 
 VtkSeries::VtkSeries(MPI_Comm world, const fs::path& folder, const std::string& name,

@@ -65,4 +65,14 @@ void write(const std::filesystem::path& path, Data* data) {
   write_file_atomically(path, writer->GetOutputString());
 }
 
+/// What a rank's file of a frame is called: STEM.ENDING on one rank, STEM_RANK.ENDING on several.
+std::string piece_name(MPI_Comm world, const std::string& stem, const std::string& ending, int rank);
+
+/// Writes the file that shows pieces as one (VTK's parallel writers need VTK's own MPI layer). Each piece:
+/// its attributes in XML, as Source="FILE".
+void write_pieces(const std::filesystem::path& path, const std::string& type, const std::string& attributes,
+                  const std::string& arrays, const std::vector<std::string>& pieces);
+/// For `arrays`: one array of 64-bit floating-point numbers as every piece has it; components: 1 or 3.
+std::string declared_array(const std::string& name, int components);
+
 }  // namespace demvof::vtk_file

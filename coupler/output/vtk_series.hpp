@@ -74,8 +74,8 @@ class ParticleSeries : VtkSeries {
   void write(double time, const ParticleFrame& frame);
 };
 
-/// surfaces/: the triangles of walls, whole in one file; a frame in which none has moved shares that of the
-/// one before.
+/// surfaces/: the triangles of walls, one .vtp piece per rank and a .pvtp over several; a frame in which none
+/// has moved shares the files of the one before.
 class SurfaceSeries : VtkSeries {
  public:
   /// Collective over world.
@@ -86,8 +86,8 @@ class SurfaceSeries : VtkSeries {
   void write(double time, const std::vector<Vec3>& corners);
 
  private:
-  std::vector<Vec3> written_;  // on rank 0: what the last file has, and its name
-  std::string file_;
+  std::vector<Vec3> written_;  // what this rank's last file has
+  std::string file_;           // the last one of all ranks
 };
 
 /// What is shown of one bulk cell.
@@ -98,15 +98,15 @@ struct BulkFrame {
   Vec3 drag;                 // force of the particles on the fluid per volume, N/m3
 };
 
-/// bulk/: the bulk grid as .vti with cell data; cells that the run does not average are marked by
-/// active = 0 and carry the defaults of BulkFrame.
+/// bulk/: the bulk grid as .vti with cell data, on several ranks in layers across z, with a .pvti over them;
+/// cells that the run does not average are marked by active = 0 and carry the defaults of BulkFrame.
 class BulkSeries : VtkSeries {
  public:
   /// Collective over world.
   BulkSeries(MPI_Comm world, BulkGrid grid, const std::filesystem::path& folder,
              std::optional<double> continued_from = {}, const std::string& name = "bulk");
-  /// Collective; active: the averaged cells that this rank owns. Rank 0 gathers and writes.
-  /// Throws std::runtime_error on all ranks when the file cannot be written.
+  /// Collective; active: the averaged cells that this rank owns. Throws std::runtime_error on all ranks when
+  /// the file cannot be written.
   void write(double time, const CellValues<BulkFrame>& active);
 
  private:

@@ -12,6 +12,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
 #include <vtkXMLPPolyDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -175,8 +176,10 @@ TEST(SurfaceSeries, TrianglesOfAllRanksReadBackAndOneFileServesWhileNoneMoves) {
   series.write(0.2, corners);
   MPI_Barrier(MPI_COMM_WORLD);
   const std::string index = text_of(out / "surfaces" / "surfaces.pvd");
-  EXPECT_NE(index.find("timestep=\"0.1\" file=\"surfaces_000000.vtp\""), std::string::npos) << index;
-  const std::string moved = ranks_ == 1 ? "surfaces_000000.vtp" : "surfaces_000002.vtp";
+  const std::string kind = ranks_ == 1 ? ".vtp" : ".pvtp";
+  EXPECT_NE(index.find("timestep=\"0.1\" file=\"surfaces_000000" + kind + "\""), std::string::npos) << index;
+  EXPECT_FALSE(fs::exists(out / "surfaces" / ("surfaces_000001" + kind)));
+  const std::string moved = ranks_ == 1 ? "surfaces_000000.vtp" : "surfaces_000002.pvtp";
   EXPECT_NE(index.find("timestep=\"0.2\" file=\"" + moved + "\""), std::string::npos) << index;
   const auto data = read_particles(out / "surfaces" / moved);
   ASSERT_EQ(data->GetNumberOfPolys(), ranks_ * (ranks_ - 1) / 2);
@@ -203,10 +206,15 @@ TEST(BulkSeries, CellsReadBackInTheirPlaces) {
   series.write(0.5, active);
   MPI_Barrier(MPI_COMM_WORLD);
 
-  vtkNew<vtkXMLImageDataReader> reader;
-  reader->SetFileName((out / "bulk" / "bulk_000000.vti").c_str());
+  const std::string file = std::string("bulk_000000") + (ranks_ == 1 ? ".vti" : ".pvti");
+  vtkSmartPointer<vtkXMLReader> reader;
+  if (ranks_ == 1)
+    reader = vtkSmartPointer<vtkXMLImageDataReader>::New();
+  else
+    reader = vtkSmartPointer<vtkXMLPImageDataReader>::New();
+  reader->SetFileName((out / "bulk" / file).c_str());
   reader->Update();
-  vtkImageData* image = reader->GetOutput();
+  const auto image = vtkImageData::SafeDownCast(reader->GetOutputAsDataSet());
   ASSERT_EQ(image->GetNumberOfCells(), 24);
   vtkCellData* arrays = image->GetCellData();
   for (CellId cell = 0; cell < 24; ++cell) {
@@ -223,7 +231,7 @@ TEST(BulkSeries, CellsReadBackInTheirPlaces) {
     expect_tuple(arrays->GetArray("pressure_gradient"), found, is_active ? vector_of(cell, 2) : Vec3{});
     expect_tuple(arrays->GetArray("drag"), found, is_active ? vector_of(cell, 3) : Vec3{});
   }
-  EXPECT_NE(text_of(out / "bulk" / "bulk.pvd").find("timestep=\"0.5\" file=\"bulk_000000.vti\""),
+  EXPECT_NE(text_of(out / "bulk" / "bulk.pvd").find("timestep=\"0.5\" file=\"" + file + "\""),
             std::string::npos);
 }
 

@@ -8,7 +8,7 @@ import sys
 
 import numpy
 from vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPImageDataReader
 
 from pair import Pair, dam_break, replace
 
@@ -18,8 +18,9 @@ DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 
 def bulk_fields(out):
     """Cell arrays of the last bulk output, by name."""
-    reader = vtkXMLImageDataReader()
-    reader.SetFileName(str(sorted(pathlib.Path(out).glob("bulk/**/*.vti"))[-1]))
+    whole = max(pathlib.Path(out).glob("bulk/*.pvti"), default=None) or max(pathlib.Path(out).glob("bulk/*.vti"))
+    reader = vtkXMLPImageDataReader() if whole.suffix == ".pvti" else vtkXMLImageDataReader()
+    reader.SetFileName(str(whole))
     reader.Update()
     cells = reader.GetOutput().GetCellData()
     return {cells.GetArrayName(i): vtk_to_numpy(cells.GetArray(i)) for i in range(cells.GetNumberOfArrays())}
