@@ -70,8 +70,11 @@ void Waiting::throw_received() const {
   if (!notice) return;
   const Process& sender = world_.pair().processes[notice->from];
   heard_of(notice->failure);
+  // Who refuses the input says why, in words that need no repetition beside them.
   const std::string text =
-      fmt::format("{}: {} failed:\n{}", world_.self().name(), sender.name(), notice->failure.message);
+      notice->failure.exit_code == exit_input
+          ? fmt::format("{}: {} refuses the input, and says why.", world_.self().name(), sender.name())
+          : fmt::format("{}: {} failed:\n{}", world_.self().name(), sender.name(), notice->failure.message);
   if (sender.side == world_.side()) throw FellowFailed(text, notice->failure.exit_code);
   throw PartnerFailed(text);
 }

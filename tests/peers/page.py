@@ -14,6 +14,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 PAGE = HERE.parents[1] / "docs" / "peers.md"
 RECORD = HERE / "results.json"
 
+# Largest errors of the books of a pair that count as closed (docs/outputs.md, conservation); of the liquid what the tutorials' own
+# tolerances of the pressure leave.
+BOOKS = {"exchange": 1e-12, "momentum": 1e-8, "liquid_volume": 1e-6}
+
 # Differences that are not a fault, each with the reason and the measurement that shows it.
 EXPLAINED = {
     "interIsoFoam/standingWave": "OpenFOAM's Crank-Nicolson forms the old derivative of the flux anew in each pressure correction; `foam_side` "
@@ -62,6 +66,18 @@ DEM steps. "Exchange" is the worst error of impulse given against received in a 
 
 """
 
+WITH_BEADS = """
+## OpenFOAM's tutorials with beads
+
+Every one of the same tutorials as a pair: {beads} beads of {density} kg/m3, {size} of the local cell's width in diameter, half of them in the liquid and half
+outside where there is room, no nearer to a boundary than {from_walls} cells; {cells} bulk cells along the longest side; {windows} windows of at most {steps} of the tutorial's
+`deltaT` (fewer where the beads would fall by more than {fall} diameters: the script has no floor); Courant number {courant}; Euler in place of another time scheme, and a mesh
+that refines itself by the fluid's own dictionary left as it is made, both as `demvof check` asks for. "Exchange", "momentum" and "liquid" are the errors
+of the books ([outputs](outputs.md)); they close with at most {exchange:.0e}, {momentum:.0e} and {liquid_volume:.0e}. The last is what the tutorials' own
+tolerances of the pressure leave. Where the fluid's walls move the same walls would have to move in the script, which this one has not: `check` refuses it.
+
+"""
+
 # What differs where OpenFOAM's Crank-Nicolson meets several pressure corrections.
 CRANK_NICOLSON = """
 **Crank-Nicolson**: OpenFOAM's scheme forms the flux memory's derivative of the old time anew in each pressure correction, from its
@@ -88,6 +104,8 @@ def agrees(r):
 def verdict(r):
     if r["outcome"] != "runs" or r["name"].startswith("LIGGGHTS"):
         return r["outcome"]
+    if r["name"].startswith("beads/"):
+        return "closes" if all(r["books"][book] <= bound for book, bound in BOOKS.items()) else "open books"
     return "agrees" if agrees(r) else "explained" if r["name"] in EXPLAINED else "differs"
 
 
@@ -109,6 +127,14 @@ def grain_row(r):
     return f"| {r['name']} | {r['particles']} | runs | {r['books']:.1e} | | {r['commit']} |"
 
 
+def beads_row(r):
+    name = r["name"].removeprefix("beads/")
+    if r["outcome"] != "runs":
+        return f"| {name} | | {r['outcome']} | | | | {cell(r['why'])} | {r['commit']} |"
+    errors = " | ".join(f"{r['books'][book]:.1e}" for book in BOOKS)
+    return f"| {name} | {r['particles']} | {verdict(r)} | {errors} | | {r['commit']} |"
+
+
 def counts(solver, known, rows):
     """How many of the tutorials of a program came to what, and which were never tried."""
     own = [r for r in rows if r["name"].startswith(solver + "/")]
@@ -116,6 +142,7 @@ def counts(solver, known, rows):
     came_to = [verdict(r) for r in own]
     parts = [f"{came_to.count(word)} {said}" for word, said in
              (("agrees", "agree"), ("explained", "differ for a reason that is known"), ("differs", "differ"), ("runs", "run"),
+              ("closes", "run and close their books"), ("open books", "run with open books"),
               ("refused", "refused"), ("not comparable", "not comparable"), ("fails", "fail")) if came_to.count(word)]
     left = sorted(set(names) - {r["name"] for r in own})
     not_tried = f" Not tried: {', '.join(left)}." if left else ""
@@ -124,24 +151,28 @@ def counts(solver, known, rows):
 
 def text(record):
     known, rows = record["known"], sorted(record["rows"], key=lambda r: record["known"].index(r["name"]))
-    fluid = [r for r in rows if not r["name"].startswith("LIGGGHTS")]
+    fluid = [r for r in rows if r["name"].startswith("inter")]
+    pairs = [r for r in rows if r["name"].startswith("beads/")]
     grains = [r for r in rows if r["name"].startswith("LIGGGHTS")]
     lines = [INTRODUCTION.format(version=record["package"])]
     lines += [counts(solver, known, rows) + "\n" for solver in ("interFoam", "interIsoFoam")]
     lines.append("| tutorial | cells | outcome | difference | | commit |\n| --- | --- | --- | --- | --- | --- |\n")
     lines += [fluid_row(r) + "\n" for r in fluid] + [RECONSTRUCT, SOLITARY, CRANK_NICOLSON]
+    lines.append(WITH_BEADS.format(**record["beads"], **BOOKS) + counts("beads", known, rows) + "\n")
+    lines.append("| tutorial | beads | outcome | exchange | momentum | liquid | | commit |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n")
+    lines += [beads_row(r) + "\n" for r in pairs]
     lines.append(GRAINS.format(**record["grains"]) + counts("LIGGGHTS", known, rows) + "\n")
     lines.append("| tutorial | particles | outcome | exchange | | commit |\n| --- | --- | --- | --- | --- | --- |\n")
     lines += [grain_row(r) + "\n" for r in grains]
     return "".join(lines)
 
 
-def add(rows, package, known, grains):
+def add(rows, package, known, settings):
     """Takes new rows into the record, in place of those of the same tutorials, and writes the page."""
     old = json.loads(RECORD.read_text())["rows"] if RECORD.exists() else []
     rows = [{**r, "why": cell(r["why"])} if "why" in r else r for r in rows]
     merged = {r["name"]: r for r in old + rows if r["name"] in known}
-    record = {"package": package, "grains": grains, "known": list(known), "rows": [merged[name] for name in known if name in merged]}
+    record = {"package": package, **settings, "known": list(known), "rows": [merged[name] for name in known if name in merged]}
     RECORD.write_text(json.dumps(record, indent=1) + "\n")
     PAGE.write_text(text(record))
 
