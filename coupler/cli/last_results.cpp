@@ -45,7 +45,7 @@ std::optional<RunFailure> first_note(const fs::path& folder) {
 }  // namespace
 
 void write_last_results(const fs::path& folder, const CaseParameters& parameters,
-                        const std::vector<std::string>& command, int code) {
+                        const std::vector<std::string>& command, int code, bool user_asked) {
   const fs::path file = folder / "results.json";
   if (fs::exists(file)) return;
   RunResults results;
@@ -59,10 +59,13 @@ void write_last_results(const fs::path& folder, const CaseParameters& parameters
   if (!results.failure)
     results.failure = RunFailure{
         "launcher", progress ? "run" : "start", progress ? progress->time : 0,
-        fmt::format("the programs ended without a word, with exit code {}: they were killed, or mpirun was.\n"
-                    "What to try: see what they wrote last to fluid.log and particles.log, and whether the "
-                    "machine ran out of memory.",
-                    code)};
+        user_asked
+            ? "the programs were asked to stop at the end of the window, and killed before they were there"
+            : fmt::format(
+                  "the programs ended without a word, with exit code {}: they were killed, or mpirun was.\n"
+                  "What to try: see what they wrote last to fluid.log and particles.log, and whether the "
+                  "machine ran out of memory.",
+                  code)};
   if (progress) results.steps.windows = progress->window;
   write_results(file, results);
 }

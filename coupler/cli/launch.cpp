@@ -220,7 +220,7 @@ End launch(const LaunchCommand& command, const Watch& watch) {
   }
   read_some(pipe_ends[0], lines, 0);
   close(pipe_ends[0]);
-  const bool said_something = lines.finish(*code != 0);
+  const bool said_something = lines.finish(*code != 0 && passed_on == 0);
   if (passed_on == 0 && !killed)
     if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
         !end.empty())

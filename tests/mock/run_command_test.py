@@ -202,6 +202,42 @@ class RunCommand(unittest.TestCase):
                        capture_output=True)
         self.assertTrue((self.base / "run/results.json").exists())
 
+    def test_a_job_for_slurm_is_written_and_nothing_run(self):
+        options = ("--out", "runs/a", "--particle-ranks", "2", "--mpirun-option=--display-map", "--slurm-option=--time=2:00:00")
+        code, shown = self.demvof("run", "case.yaml", "--slurm", "--print-command", *options)
+        self.assertEqual(code, 0, shown)
+        self.assertFalse((self.base / "runs").exists())
+        self.assertEqual(self.demvof("run", "case.yaml", "--slurm", *options),
+                         (0, "runs/a.sbatch is written; submit it with\n    sbatch runs/a.sbatch\n"))
+        script = (self.base / "runs/a.sbatch").read_text()
+        self.assertEqual(script, shown)
+        self.assertIn("\n#SBATCH --ntasks=3\n", script)
+        self.assertIn("\n#SBATCH --time=2:00:00\n", script)
+        self.assertFalse((self.base / "bin/foam_side.arguments").exists())
+        # What Slurm does with it: once, and again as if the first had ended without a state.
+        environment = {**os.environ, "FLUID": "complete", "PARTICLES": "complete"}
+        for _ in range(2):
+            done = subprocess.run(["bash", "runs/a.sbatch"], cwd=self.base, env=environment, capture_output=True, text=True,
+                                  timeout=60, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertTrue((self.base / "runs/a/results.json").exists())
+        self.assertIn("--out runs/a --set particles.ranks=2\n", self.arguments_of("dem_side"))
+
+    def test_a_job_that_would_be_refused_is_refused_at_once(self):
+        self.demvof("run", "case.yaml")
+        for options, said in ((("--slurm",), "give --force to replace it"),
+                              (("--slurm", "--continue"), "--continue"),
+                              (("--slurm", "--out", "b", "--slurm-option=partition=long"), "'partition=long' is no option"),
+                              (("--slurm-option=--time=1",), "give --slurm with it"),
+                              (("--slurm", "--continue", "--from", "1"), "leave --from out")):
+            code, output = self.demvof("run", "case.yaml", *options)
+            self.assertEqual(code, 2, output)
+            self.assertIn(said, output)
+        self.assertEqual(list(self.base.glob("*.sbatch")), [])
+        self.assertTrue((self.base / "run/results.json").exists())
+        self.assertEqual(self.demvof("run", "case.yaml", "--slurm", "--force")[0], 0)
+        self.assertFalse((self.base / "run/results.json").exists())
+
     def test_without_particles_foam_side_runs_alone(self):
         self.write_case("")
         code, output = self.demvof("run", "case.yaml", "--print-command")
