@@ -44,6 +44,7 @@ HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$
 CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
 GATHERED = {"^unit_gathered_state$": ["unit_gathered_state"]}
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
+ENDINGS = {"^endings$": ["ending_actor"]}
 JOB = {"^unit_batch_script$": ["unit_batch_script"]}
 CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refusals"))
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
@@ -327,6 +328,8 @@ FAULTS = [
     ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
+    ("coupler/cli/child_process.cpp", "return name == one.substr(0, longest_name);", "return !name.empty() && !one.empty();", LAUNCH),
+    ("coupler/cli/mpirun.cpp", 'set("oob_tcp_keepalive_intvl", seconds(0.0625));', 'set("oob_tcp_keepalive_intvl", seconds(0.5));', LAUNCH),
     ("coupler/cli/batch_script.cpp", 'option("ntasks", std::to_string(job.ranks));', 'option("ntasks", "1");', JOB),
     ("coupler/cli/batch_script.cpp", "if [ -e {} ]; then", "if [ -d {} ]; then", JOB),
     ("coupler/cli/batch_script.cpp", "    exec {}\\nfi", "    {}\\n    exit\\nfi", JOB),
