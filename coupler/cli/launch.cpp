@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <regex>
 #include <stdexcept>
 
 #include "coupler/base/errors.hpp"
@@ -72,11 +73,16 @@ class Lines {
       in_block_ = !in_block_;
     } else if (in_block_ || text.rfind("mpirun: Forwarding signal", 0) == 0) {
       chatter_.push_back(text);
+      std::smatch found;
+      if (std::regex_search(text, found, lost_host_))
+        on_line_("mpirun lost host " + found[1].str() +
+                 ": it does not answer, or nothing runs there any more");
     } else {
       said_something_ = said_something_ || !text.empty();
       on_line_(text);
     }
   }
+  const std::regex lost_host_{"Remote daemon: .* on node (\\S+)"};
   std::function<void(const std::string&)> on_line_;
   std::string rest_;
   std::vector<std::string> chatter_;

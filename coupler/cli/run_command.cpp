@@ -138,8 +138,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
   display.finish();
 
   folder.wait_for_programs(10);  // mpirun may have been killed before them
-  if (end.code == 3 || end.code == 4)
-    write_last_results(folder.path(), parameters, command.words, end);
+  if (end.code == 3 || end.code == 4) write_last_results(folder.path(), parameters, command.words, end);
   remove_notes(folder.path());
   // What was there before is the result of the run as it was.
   const bool of_this_run = time_of(results_file(folder)) != before;

@@ -83,14 +83,15 @@ class ThreeHosts(unittest.TestCase):
 
     def befall(self, what, mend, seconds, mend_first=False):
         """Does it to a run, which fails within the seconds, leaves nothing on any host, and goes on from its state once that
-        is mended. Its exit code and results.json are returned."""
+        is mended. What it said and its results.json are returned."""
         self.write(fine=(40, 20, 40), end_time=9)
         process = self.start()
         self.wait_for_window(5, process)
         for host, program in zip(NAMES, ("foam_side", "foam_side", "dem_side")):
             self.assertEqual(len(self.hosts.processes(host, program)), 1, f"{program} on {host}")
         what()
-        code, text = self.end(process, seconds)
+        code, text_of_the_end = self.end(process, seconds)
+        self.assertEqual(code, 4, text_of_the_end)
         if mend_first:
             mend()
         begin = time.monotonic()
@@ -99,6 +100,7 @@ class ThreeHosts(unittest.TestCase):
         self.assertEqual(there, {}, f"after {seconds} s more")
         print(f"---- the last process ended {time.monotonic() - begin:.1f} s later", flush=True)
         results = self.results()
+        self.assertEqual(results["status"], "failed")
         print(f"---- {results['status']}: {results['failure']}", flush=True)
         if not mend_first:
             mend()
@@ -107,7 +109,7 @@ class ThreeHosts(unittest.TestCase):
         continued, text = self.end(self.start("--continue", *until), 100)
         self.assertEqual(continued, 0, text)
         self.as_on_one_host(*until)
-        return code, results
+        return text_of_the_end, results
 
     def test_nothing(self):
         self.write()
@@ -134,7 +136,8 @@ class ThreeHosts(unittest.TestCase):
         self.as_on_one_host()
 
     def check_cut_off(self, host):
-        self.befall(lambda: self.hosts.plug(host, False), lambda: self.hosts.plug(host), LONGEST)
+        text, _ = self.befall(lambda: self.hosts.plug(host, False), lambda: self.hosts.plug(host), LONGEST)
+        self.assertIn(f"mpirun lost host {host}", text)
 
     def test_the_host_of_the_particles_cut_off(self):
         self.check_cut_off("gamma")
@@ -143,7 +146,8 @@ class ThreeHosts(unittest.TestCase):
         self.check_cut_off("beta")
 
     def check_killed(self, host):
-        self.befall(lambda: self.hosts.kill_all(host), lambda: None, LONGEST)
+        text, _ = self.befall(lambda: self.hosts.kill_all(host), lambda: None, LONGEST)
+        self.assertIn(f"mpirun lost host {host}", text)
 
     def test_all_killed_on_the_host_of_the_particles(self):
         self.check_killed("gamma")

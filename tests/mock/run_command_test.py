@@ -187,12 +187,14 @@ class RunCommand(unittest.TestCase):
                 self.assertEqual("What to try: the same mpirun" in output, "speaks" not in script, output)
 
     def test_what_mpirun_says_of_a_lost_host_is_in_the_results(self):
-        environment = self.put_mpirun_first_in_path(f"printf '%s\\n' {'-' * 70} 'no word from node beta' {'-' * 70}; exit 205")
+        environment = self.put_mpirun_first_in_path(f"printf '%s\\n' {'-' * 70} 'no word' 'Remote daemon: [[1,0],2] on node beta' "
+                                                   f"{'-' * 70}; exit 205")
         code, output = self.demvof("run", "case.yaml", env=environment)
         self.assertEqual(code, 4, output)
-        self.assertIn("\nno word from node beta\n", output)
+        self.assertIn("\nmpirun lost host beta: it does", output)
+        self.assertIn("\nno word\nRemote daemon: [[1,0],2] on node beta\n", output)
         self.assertNotIn("mpirun itself", output)
-        self.assertIn("no word from node beta", json.loads((self.base / "run/results.json").read_text())["failure"]["message"])
+        self.assertIn("no word\nRemote daemon", json.loads((self.base / "run/results.json").read_text())["failure"]["message"])
 
     def test_an_mpirun_of_another_mpi_is_refused(self):
         environment = self.put_mpirun_first_in_path("exit 1")
