@@ -328,7 +328,7 @@ FAULTS = [
     ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
-    ("coupler/cli/child_process.cpp", "return name == one.substr(0, longest_name);", "return !name.empty() && !one.empty();", LAUNCH),
+    ("coupler/cli/child_process.cpp", "return name == one.substr(0, longest_name);", "return name != one.substr(0, longest_name);", LAUNCH),
     ("coupler/cli/mpirun.cpp", 'set("oob_tcp_keepalive_intvl", seconds(0.0625));', 'set("oob_tcp_keepalive_intvl", seconds(0.5));', LAUNCH),
     ("coupler/link/watch.cpp", "files.push_back({other.end, POLLIN, 0});", "continue;", ENDINGS),
     ("coupler/cli/batch_script.cpp", 'option("ntasks", std::to_string(job.ranks));', 'option("ntasks", "1");', JOB),
