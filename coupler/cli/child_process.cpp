@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -83,14 +84,21 @@ std::optional<int> ChildProcess::poll() {
   return exit_code_;
 }
 
-// /proc/PID/stat: "pid (name) state parent ...", and the name may hold anything.
-bool ChildProcess::has_children() const {
+// /proc/PID/stat: "pid (name) state parent ...", and the name, the first bytes of it, may hold anything.
+bool ChildProcess::has_children(const std::vector<std::string>& names) const {
+  constexpr std::size_t longest_name = 15;
+  const auto wanted = [&names](const std::string& name) {
+    return std::any_of(names.begin(), names.end(),
+                       [&name](const std::string& one) { return name == one.substr(0, longest_name); });
+  };
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", none)) {
     std::ifstream file(entry.path() / "stat");
     std::string line;
     if (!std::getline(file, line)) continue;
-    std::istringstream fields(line.substr(line.rfind(')') + 1));
+    const std::size_t begin = line.find('(') + 1, end = line.rfind(')');
+    if (begin > end || end == std::string::npos || !wanted(line.substr(begin, end - begin))) continue;
+    std::istringstream fields(line.substr(end + 1));
     char state = 'X';
     pid_t parent = 0;
     fields >> state >> parent;

@@ -34,8 +34,8 @@ class ChildProcess {
   /// The exit code once it has ended (128 + number for a signal, as a shell says it).
   std::optional<int> poll();
   int wait();
-  /// Whether any program that it has started itself still runs on this host.
-  bool has_children() const;
+  /// Whether any program of these names that it has started itself still runs on this host.
+  bool has_children(const std::vector<std::string>& names) const;
   /// The signal that ended it; 0: none, or not yet.
   int killed_by() const { return killed_by_; }
 

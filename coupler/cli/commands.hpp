@@ -19,6 +19,8 @@ struct CaseOptions {
 struct RunOptions {
   std::string fluid_ranks, particle_ranks;  // empty: as the case file says
   std::vector<std::string> mpirun_words;    // --mpirun-option
+  bool slurm = false;                       // write a job's script instead
+  std::vector<std::string> slurm_options;   // --slurm-option: lines of it
   bool continues = false;                   // an earlier run in the folder, from its last state
   std::optional<long> from;                 // ... or from the state after so many windows
   bool print_command = false, quiet = false;

@@ -42,10 +42,22 @@ std::optional<RunFailure> first_note(const fs::path& folder) {
   return first;
 }
 
+std::string how_it_ended(const End& end) {
+  if (end.user_asked)
+    return "the programs were asked to stop at the end of the window, and killed before they were there";
+  const std::string what = fmt::format(
+      "the programs ended without a word, with exit code {}: they were killed, or mpirun was", end.code);
+  if (!end.mpirun_said.empty()) return what + ". mpirun said:\n" + end.mpirun_said;
+  return what +
+         ".\nWhat to try: see what they wrote last to fluid.log and particles.log, and whether the machine "
+         "ran "
+         "out of memory.";
+}
+
 }  // namespace
 
 void write_last_results(const fs::path& folder, const CaseParameters& parameters,
-                        const std::vector<std::string>& command, int code) {
+                        const std::vector<std::string>& command, const End& end) {
   const fs::path file = folder / "results.json";
   if (fs::exists(file)) return;
   RunResults results;
@@ -57,12 +69,8 @@ void write_last_results(const fs::path& folder, const CaseParameters& parameters
   results.failure = first_note(folder);
   const auto progress = read_progress(folder / "progress.json");
   if (!results.failure)
-    results.failure = RunFailure{
-        "launcher", progress ? "run" : "start", progress ? progress->time : 0,
-        fmt::format("the programs ended without a word, with exit code {}: they were killed, or mpirun was.\n"
-                    "What to try: see what they wrote last to fluid.log and particles.log, and whether the "
-                    "machine ran out of memory.",
-                    code)};
+    results.failure =
+        RunFailure{"launcher", progress ? "run" : "start", progress ? progress->time : 0, how_it_ended(end)};
   if (progress) results.steps.windows = progress->window;
   write_results(file, results);
 }

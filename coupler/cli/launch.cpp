@@ -3,12 +3,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <regex>
 #include <stdexcept>
 
 #include "coupler/base/errors.hpp"
@@ -56,12 +58,13 @@ class Lines {
       line(rest_.substr(0, end));
   }
   /// Whether the programs said anything.
-  bool finish(bool failed) {
+  bool finish() {
     if (!rest_.empty()) line(rest_);
-    if (failed && !said_something_)
-      for (const std::string& text : chatter_) on_line_(text);
+    rest_.clear();
     return said_something_;
   }
+  /// What was set aside.
+  const std::vector<std::string>& chatter() const { return chatter_; }
 
  private:
   void line(const std::string& text) {
@@ -70,30 +73,36 @@ class Lines {
       in_block_ = !in_block_;
     } else if (in_block_ || text.rfind("mpirun: Forwarding signal", 0) == 0) {
       chatter_.push_back(text);
+      std::smatch found;
+      if (std::regex_search(text, found, lost_host_))
+        on_line_("mpirun lost host " + found[1].str() +
+                 ": it does not answer, or nothing runs there any more");
     } else {
       said_something_ = said_something_ || !text.empty();
       on_line_(text);
     }
   }
+  const std::regex lost_host_{"Remote daemon: .* on node (\\S+)"};
   std::function<void(const std::string&)> on_line_;
   std::string rest_;
   std::vector<std::string> chatter_;
   bool in_block_ = false, said_something_ = false;
 };
 
-/// mpirun may not end when all that it has started has: Open MPI 4 waits for itself for ever in its clean-up
-/// when a rank was killed while it introduced itself.
+/// mpirun may not end when its programs have: Open MPI 4 waits for itself for ever in its clean-up when a
+/// rank was killed while it introduced itself, and for hosts that do not answer. (There its other half ends
+/// what it has started when it is without mpirun.)
 class Forgotten {
  public:
   /// True once mpirun has had programs, and has been without any for 10 s. Asked often, it looks once a
   /// second.
-  bool operator()(const ChildProcess& mpirun) {
+  bool operator()(const ChildProcess& mpirun, const std::vector<std::string>& programs) {
     constexpr double patience = 10;
     const auto now = std::chrono::steady_clock::now();
     const auto since = [now](auto then) { return std::chrono::duration<double>(now - then).count(); };
     if (since(last_look_) < 1) return false;
     last_look_ = now;
-    if (mpirun.has_children()) {
+    if (mpirun.has_children(programs)) {
       last_seen_ = now;
       begun_ = true;
     }
@@ -142,12 +151,14 @@ LaunchCommand launch_command(const CaseParameters& parameters, const std::vector
   const int fluid_ranks = parameters.fluid.ranks,
             particle_ranks = command.pair ? parameters.particles->ranks : 0;
   add({"mpirun"});
-  add(mpirun_options(mpirun));
+  add(mpirun_options(mpirun, parameters.coupling.time_out));
   add(mpirun_words);
   add({"-np", std::to_string(fluid_ranks + particle_ranks)});
   if (command.pair) add({sibling("demvof_pair"), "-np", std::to_string(fluid_ranks)});
   add_program("foam_side");
+  command.programs = {"demvof_pair", "foam_side"};
   if (command.pair) {
+    command.programs.emplace_back("dem_side");
     add({"+", "-np", std::to_string(particle_ranks)});
     add_program("dem_side");
   }
@@ -211,7 +222,7 @@ End launch(const LaunchCommand& command, const Watch& watch) {
                                    : "ending at once");
       ++passed_on;
     }
-    if (command.words.front() == "mpirun" && !killed && forgotten(programs)) {
+    if (command.words.front() == "mpirun" && !killed && forgotten(programs, command.programs)) {
       watch.on_line("mpirun does not end though its programs have: killing it");
       programs.send_signal(SIGKILL);
       killed = true;
@@ -220,12 +231,18 @@ End launch(const LaunchCommand& command, const Watch& watch) {
   }
   read_some(pipe_ends[0], lines, 0);
   close(pipe_ends[0]);
-  const bool said_something = lines.finish(*code != 0);
+  const bool said_something = lines.finish();
+  std::string mpirun_said;
+  if (*code != 0 && passed_on == 0 && !said_something) {
+    for (const std::string& text : lines.chatter()) show(text);
+    mpirun_said = fmt::format("{}", fmt::join(lines.chatter(), "\n"));
+  }
   if (passed_on == 0 && !killed)
-    if (const std::string end = end_of_mpirun(command, *code, programs.killed_by(), said_something);
+    if (const std::string end =
+            end_of_mpirun(command, *code, programs.killed_by(), said_something || !mpirun_said.empty());
         !end.empty())
       show(end);
-  return {run_exit_code(*code, command.pair, passed_on > 0), passed_on > 0};
+  return {run_exit_code(*code, command.pair, passed_on > 0), passed_on > 0, mpirun_said};
 }
 
 }  // namespace demvof

@@ -16,6 +16,7 @@ struct LaunchCommand {
   std::vector<std::string> words;
   std::map<std::string, std::string> environment;  // set unless the user's environment has it
   bool pair = false;                               // two programs in one mpirun
+  std::vector<std::string> programs;               // names of those that mpirun starts
 };
 
 /// mpirun with foam_side and, with particles, dem_side through demvof_pair, all from the folder of this
@@ -34,8 +35,9 @@ struct Watch {
 };
 
 struct End {
-  int code;         // 0, 2, 3 or 4 (README)
-  bool user_asked;  // for it
+  int code;                      // 0, 2, 3 or 4 (README)
+  bool user_asked;               // for it
+  std::string mpirun_said = {};  // about the programs' end, when they said nothing
 };
 
 /// Starts the programs and waits for their end. The first Ctrl-C, SIGTERM or hang-up of the terminal
@@ -51,7 +53,7 @@ int run_exit_code(int code, bool pair, bool ended_by_user);
 int confirmed(const End& end, const std::string& status);
 
 /// What to say when mpirun itself was killed by a signal, or ended badly before the programs said a word;
-/// empty otherwise.
+/// empty otherwise. said_something: they, or mpirun of itself.
 std::string end_of_mpirun(const LaunchCommand& command, int code, int killed_by, bool said_something);
 
 }  // namespace demvof

@@ -136,6 +136,13 @@ class CommandLine {
             "A word for mpirun, e.g. --mpirun-option=--hostfile --mpirun-option=hosts; may be repeated")
         ->type_name("WORD")
         ->allow_extra_args(false);
+    command->add_flag("--slurm", run_.slurm,
+                      "Write DIR.sbatch, a job for Slurm that does this run, and stop (see SLURM)");
+    command
+        ->add_option("--slurm-option", run_.slurm_options,
+                     "A line of #SBATCH for the job, e.g. --slurm-option=--time=2:00:00; may be repeated")
+        ->type_name("OPTION")
+        ->allow_extra_args(false);
     command->add_flag("--continue", run_.continues,
                       "Go on with the run in DIR, from the last state that it has left there");
     command

@@ -142,7 +142,22 @@ const char* const run_manual = R"(DESCRIPTION
     may change, coupling.end_time for one; the fluid case, its ranks, bulk_grid and coupling.window may not.
     The particle script has to allow it (docs/howto_your_own_case.md).
 
+SLURM
+    --slurm writes DIR.sbatch, a job with as many tasks as the run has ranks, and says how to submit it. In it
+    `demvof run` starts the programs by mpirun, which knows the job's nodes. --slurm-option adds lines of #SBATCH
+    (--time, --partition, --nodes ...; the last one of a name counts).
+
+    The job begins the run in DIR, or goes on with it from its last state. After a job that met its time limit, or
+    was cancelled, submit the same file again; `sbatch --dependency=singleton DIR.sbatch`, several times, is a
+    row of such jobs. Who finds the run at its end says so and ends with code 2. A job that Slurm puts back
+    into the queue goes on, too.
+
+    120 s before its time limit the run is told to stop at the end of the window, with a state, and the job ends
+    with code 3. Where this is too short for a window and for writing: --slurm-option=--signal=B:TERM@600. The same
+    by hand is `scancel --batch --signal=TERM JOB`. A plain scancel leaves the window some 6 s.
+
 FILES
+    DIR.sbatch          the job (--slurm); DIR.JOB.log is what it prints
     DIR/results.json    everything about the run; DIR/earlier has those of the parts that were continued
     DIR/history.csv     recorded quantities against time
     DIR/fluid           OpenFOAM time folders
@@ -161,6 +176,7 @@ EXAMPLES
     demvof run case.yaml --print-command
     demvof run case.yaml --mpirun-option=--hostfile --mpirun-option=hosts
     demvof run case.yaml --continue --set coupling.end_time=2
+    demvof run case.yaml --slurm --out runs/a --slurm-option=--time=12:00:00 --slurm-option=--partition=long
 )";
 
 const char* const report_manual = R"(DESCRIPTION

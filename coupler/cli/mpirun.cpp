@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <regex>
 #include <stdexcept>
+#include <string>
 
 #include "coupler/cli/child_process.hpp"
 
@@ -53,18 +55,26 @@ std::string mpi_library() {
   return read_version(text).version;
 }
 
-std::vector<std::string> mpirun_options(const Mpirun& mpirun) {
+std::vector<std::string> mpirun_options(const Mpirun& mpirun, double time_out) {
   if (mpirun.open_mpi == 0) return {};
   // More ranks than cores are allowed (Open MPI then yields the core while it waits), and ranks are not
   // pinned: two runs on one machine would be pinned to the same cores.
   std::vector<std::string> words = {"--oversubscribe", "--bind-to", "none"};
   if (mpirun.open_mpi < 5) {
-    const auto set = [&words](const char* name, const char* value) {
+    const auto set = [&words](const char* name, const std::string& value) {
       words.insert(words.end(), {"--mca", name, value});
     };
     // When a rank ends badly, mpirun waits twice this time, s, before it kills the others: enough for them to
     // write what they have, and for a run to be over within 10 s of the loss of a side.
     set("odls_base_sigkill_timeout", "3");
+    // A host that does not answer is lost after half the time that both sides wait for each other, and not
+    // before a quarter: mpirun then ends the run, and its other half there what it has started.
+    const auto seconds = [time_out](double share) {
+      return std::to_string(std::max(1L, static_cast<long>(std::min(1e5, time_out) * share)));
+    };
+    set("oob_tcp_keepalive_time", seconds(0.25));
+    set("oob_tcp_keepalive_intvl", seconds(0.0625));
+    set("oob_tcp_keepalive_probes", "4");
     // Containers often forbid to read another process's memory.
     set("btl_vader_single_copy_mechanism", "none");
   }

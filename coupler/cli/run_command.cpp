@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "coupler/base/printable.hpp"
+#include "coupler/cli/batch_script.hpp"
+#include "coupler/cli/child_process.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/commands_in_case.hpp"
 #include "coupler/cli/last_results.hpp"
@@ -31,6 +33,43 @@ std::vector<std::string> program_arguments(const CaseOptions& options, const Run
   return arguments;
 }
 
+/// This command line as a job's, without --continue and --force.
+BatchJob batch_job(const CaseOptions& options, const RunOptions& run, const CaseParameters& parameters,
+                   const RunFolder& folder) {
+  BatchJob job;
+  job.directory = fs::current_path();
+  job.out = folder.path();
+  job.ranks = parameters.fluid.ranks + (parameters.particles ? parameters.particles->ranks : 0);
+  job.command = {fs::read_symlink("/proc/self/exe").string(), "run", options.case_file, "--out",
+                 folder.path().string()};
+  for (const std::string& assignment : options.overrides)
+    job.command.insert(job.command.end(), {"--set", assignment});
+  for (const std::string& word : run.mpirun_words) job.command.push_back("--mpirun-option=" + word);
+  if (options.no_commands) job.command.emplace_back("--no-commands");
+  if (run.quiet) job.command.emplace_back("--quiet");
+  job.slurm_options = run.slurm_options;
+  return job;
+}
+
+/// What demvof run would refuse is refused now and not when the job has waited for its turn.
+int write_job(const CaseOptions& options, const RunOptions& run, const CaseParameters& parameters,
+              const RunFolder& folder) {
+  const std::string script = batch_script(batch_job(options, run, parameters, folder));
+  if (run.print_command) {
+    fmt::print("{}", script);
+    return 0;
+  }
+  if (run.continues)
+    folder.require_continuable({});
+  else if (!folder.ready())
+    folder.clear(options.force);
+  const fs::path file = batch_script_file(folder.path());
+  write_batch_script(file, script);
+  if (!run.quiet)
+    fmt::print("{} is written; submit it with\n    sbatch {}\n", file.string(), shell_line({file.string()}));
+  return 0;
+}
+
 /// Tells a file from one that has taken its place.
 fs::file_time_type time_of(const fs::path& file) {
   std::error_code none;
@@ -54,6 +93,10 @@ int run_command(CaseOptions options, const RunOptions& run) {
   if (!run.particle_ranks.empty()) options.overrides.push_back("particles.ranks=" + run.particle_ranks);
   if (run.from && !run.continues)
     throw InputError("demvof run: --from says where to go on; give --continue with it");
+  if (run.from && run.slurm)
+    throw InputError("demvof run: --slurm: the job goes on from the last state; leave --from out");
+  if (!run.slurm_options.empty() && !run.slurm)
+    throw InputError("demvof run: --slurm-option is for a job's script; give --slurm with it");
   if (run.continues && options.force)
     throw InputError("demvof run: --continue keeps what is in the folder, --force replaces it; give one");
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
@@ -61,6 +104,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
   const RunFolder folder(parameters, options.out);
   const LaunchCommand command =
       launch_command(parameters, program_arguments(options, run, folder), run.mpirun_words);
+  if (run.slurm) return write_job(options, run, parameters, folder);
   if (run.print_command) {
     fmt::print("{}\n", shell_line(command));
     return 0;
@@ -94,7 +138,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
   display.finish();
 
   folder.wait_for_programs(10);  // mpirun may have been killed before them
-  if (end.code == 3 || end.code == 4) write_last_results(folder.path(), parameters, command.words, end.code);
+  if (end.code == 3 || end.code == 4) write_last_results(folder.path(), parameters, command.words, end);
   remove_notes(folder.path());
   // What was there before is the result of the run as it was.
   const bool of_this_run = time_of(results_file(folder)) != before;

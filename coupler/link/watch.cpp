@@ -2,12 +2,16 @@
 #include "coupler/link/watch.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <pthread.h>
-#include <semaphore.h>
 #include <signal.h>
+#include <sys/eventfd.h>
+#include <sys/syscall.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/link/crash.hpp"
@@ -17,26 +21,29 @@
 namespace demvof {
 namespace {
 
-constexpr long turn_ms = 200;         // between two looks at the processes
+constexpr long turn_ms = 200;         // between two looks at processes whose end the kernel does not tell
+constexpr long stop_turn_ms = 1000;   // ... at all, for those that are stopped
 constexpr double longest_turn = 1;    // s: who comes back later was stopped
+constexpr long last_word_ms = 200;    // for what an ended process has sent to come: all may be done
 constexpr long main_thread_ms = 300;  // for a waiting main thread to report a loss itself
 constexpr long linger_ms = 300;   // for the others to find the first death, not ours, and to have their say
 constexpr long crash_ms = 500;    // for the others to find the death and its reason, before mpirun acts on it
 constexpr long report_ms = 6000;  // for the main thread to report and end the process
 
-struct Bell {
-  Bell() { sem_init(&semaphore, 0, 0); }
-  sem_t semaphore;
-} bell;
+const int bell = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  // a signal handler may ring it
 
-// True when rung, false after the given time.
-bool wait_for_bell(long milliseconds) {
-  timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
-  until.tv_nsec += milliseconds * 1000000;
-  until.tv_sec += until.tv_nsec / 1000000000;
-  until.tv_nsec %= 1000000000;
-  return sem_timedwait(&bell.semaphore, &until) == 0;
+// Until one of the files can be read, or for so long; for ever where the time is negative. The first is the
+// bell.
+void wait_for(std::vector<pollfd>& files, long milliseconds) {
+  std::uint64_t rung = 0;
+  if (poll(files.data(), files.size(), static_cast<int>(milliseconds)) > 0 && files[0].revents != 0 &&
+      read(bell, &rung, sizeof rung) < 0)
+    return;  // somebody else has heard it
+}
+
+// A file that can be read when the process has ended; -1 where the kernel (before 5.3) has none, or no more.
+int end_of(const Process& process) {
+  return static_cast<int>(syscall(SYS_pidfd_open, static_cast<pid_t>(process.pid), 0));
 }
 
 double now() {
@@ -63,8 +70,14 @@ class SignalsBlocked {
 
 Watch::Watch(const Process& self, const std::vector<Process>& others, double longest_stop)
     : self_(self), longest_stop_(longest_stop), looked_(now()) {
-  for (const Process& other : others)
-    if (other.host == self.host && is_running(other)) watched_.push_back({other});
+  for (const Process& other : others) {
+    if (other.host != self.host) continue;
+    const int end = end_of(other);
+    if (is_running(other))  // asked now: the pid may have been another's before
+      watched_.push_back({other, end});
+    else if (end >= 0)
+      close(end);
+  }
   const SignalsBlocked inherited_by_the_thread;
   thread_ = std::thread([this] { keep_watch(); });
 }
@@ -73,10 +86,13 @@ Watch::~Watch() {
   quit_ = true;
   look_now();
   thread_.join();
+  for (const Watched& other : watched_)
+    if (other.end >= 0) close(other.end);
 }
 
 void Watch::look_now() {
-  sem_post(&bell.semaphore);
+  const std::uint64_t once = 1;
+  if (write(bell, &once, sizeof once) < 0) return;  // rung often enough
 }
 
 void Watch::check() const {
@@ -86,8 +102,10 @@ void Watch::check() const {
 }
 
 const Process* Watch::find_ended() const {
-  for (const Watched& other : watched_)
-    if (!is_running(other.process)) return &other.process;
+  for (const Watched& other : watched_) {
+    pollfd end = {other.end, POLLIN, 0};
+    if (other.end >= 0 ? poll(&end, 1, 0) > 0 : !is_running(other.process)) return &other.process;
+  }
   return nullptr;
 }
 
@@ -101,12 +119,27 @@ const Process* Watch::find_stopped() {
   return nullptr;
 }
 
+void Watch::wait_for_news() const {
+  std::vector<pollfd> files = {{bell, POLLIN, 0}};
+  long longest = longest_stop_ == 0 ? -1 : stop_turn_ms;
+  for (const Watched& other : watched_) {
+    if (standing_down_) break;
+    if (other.end >= 0)
+      files.push_back({other.end, POLLIN, 0});
+    else
+      longest = turn_ms;
+  }
+  wait_for(files, longest);
+}
+
 void Watch::keep_watch() {
   while (!quit_) {
-    wait_for_bell(turn_ms);
+    wait_for_news();
     if (const int number = crash_signal()) handle_crash(number);
     if (quit_ || standing_down_) continue;
     if (const Process* ended = find_ended()) {
+      pause(last_word_ms);
+      if (quit_ || standing_down_) continue;
       handle_loss(*ended);
       return;
     }
@@ -119,7 +152,9 @@ void Watch::keep_watch() {
 }
 
 void Watch::pause(long milliseconds) {
-  for (long waited = 0; waited < milliseconds && !quit_ && !standing_down_; waited += 20) wait_for_bell(20);
+  std::vector<pollfd> only_the_bell = {{bell, POLLIN, 0}};
+  for (long waited = 0; waited < milliseconds && !quit_ && !standing_down_; waited += 20)
+    wait_for(only_the_bell, 20);
 }
 
 void Watch::handle_loss(const Process& ended) {

@@ -12,7 +12,7 @@
 namespace demvof {
 
 /// Looks after the other processes of the pair on this host, from a thread of its own: the main
-/// thread may be deep inside a solver when one of them is killed.
+/// thread may be deep inside a solver when one of them is killed. The kernel wakes it when one ends.
 ///
 /// When this process itself crashes (crash.hpp), the watch tells so and ends it with exit code 3.
 ///
@@ -44,6 +44,7 @@ class Watch {
 
  private:
   void keep_watch();
+  void wait_for_news() const;
   const Process* find_ended() const;
   const Process* find_stopped();
   void handle_loss(const Process& ended);
@@ -53,6 +54,7 @@ class Watch {
 
   struct Watched {
     Process process;
+    int end;             // a file that can be read when it has ended; -1: none
     double stopped = 0;  // s so far, of which this process was not stopped itself
   };
 

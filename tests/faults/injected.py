@@ -8,9 +8,10 @@ import subprocess
 import sys
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "verification" / "pair"))
-from box_case import BoxCase, Open, Particle, Wall, SIDES  # noqa: E402
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "support"), str(TESTS / "verification" / "pair")]
 from pair import wait_for_signs  # noqa: E402
+from small_pair import beads_into_water  # noqa: E402
 
 LONG = "--long" in sys.argv
 DEMVOF, LIBRARY = map(os.path.abspath, sys.argv[1:3])
@@ -20,16 +21,6 @@ RANDOM = random.Random(14)
 
 def main():
     unittest.main(argv=sys.argv[:1] + [word for word in sys.argv[4:] if word != "--long"], verbosity=2)
-
-
-def beads_into_water(folder, fine=(8, 4, 8), **keys):
-    beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.024 + 0.004 * (i // 4)), 2e-3, 2500,
-                      velocity=(0, 0, -0.3)) for i in range(12)]
-    keys = {"end_time": 0.01, "output_interval": 2e-3, **keys}
-    end_time = keys.pop("end_time")
-    return BoxCase(folder, (0.04, 0.02, 0.04), fine, (8, 4, 8), end_time, window=1e-3, level=0.0174,
-                   gravity=(5, 0, -8.4), contacts=True, dem_step=1e-5, particles=beads,
-                   sides={side: Open() if side == "z+" else Wall() for side in SIDES}, **keys).write()
 
 
 def demvof(case_file, out, *options, fault=None, silence=60):

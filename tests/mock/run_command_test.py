@@ -186,6 +186,16 @@ class RunCommand(unittest.TestCase):
                 self.assertRegex(output, said)
                 self.assertEqual("What to try: the same mpirun" in output, "speaks" not in script, output)
 
+    def test_what_mpirun_says_of_a_lost_host_is_in_the_results(self):
+        environment = self.put_mpirun_first_in_path(f"printf '%s\\n' {'-' * 70} 'no word' 'Remote daemon: [[1,0],2] on node beta' "
+                                                   f"{'-' * 70}; exit 205")
+        code, output = self.demvof("run", "case.yaml", env=environment)
+        self.assertEqual(code, 4, output)
+        self.assertIn("\nmpirun lost host beta: it does", output)
+        self.assertIn("\nno word\nRemote daemon: [[1,0],2] on node beta\n", output)
+        self.assertNotIn("mpirun itself", output)
+        self.assertIn("no word\nRemote daemon", json.loads((self.base / "run/results.json").read_text())["failure"]["message"])
+
     def test_an_mpirun_of_another_mpi_is_refused(self):
         environment = self.put_mpirun_first_in_path("exit 1")
         (self.base / "mpirun/mpirun").write_text("#!/bin/sh\necho HYDRA build details:\n")
@@ -201,6 +211,42 @@ class RunCommand(unittest.TestCase):
         subprocess.run(["sh", "-c", line], cwd=self.base, env=environment, check=True, timeout=60,
                        capture_output=True)
         self.assertTrue((self.base / "run/results.json").exists())
+
+    def test_a_job_for_slurm_is_written_and_nothing_run(self):
+        options = ("--out", "runs/a", "--particle-ranks", "2", "--mpirun-option=--display-map", "--slurm-option=--time=2:00:00")
+        code, shown = self.demvof("run", "case.yaml", "--slurm", "--print-command", *options)
+        self.assertEqual(code, 0, shown)
+        self.assertFalse((self.base / "runs").exists())
+        self.assertEqual(self.demvof("run", "case.yaml", "--slurm", *options),
+                         (0, "runs/a.sbatch is written; submit it with\n    sbatch runs/a.sbatch\n"))
+        script = (self.base / "runs/a.sbatch").read_text()
+        self.assertEqual(script, shown)
+        self.assertIn("\n#SBATCH --ntasks=3\n", script)
+        self.assertIn("\n#SBATCH --time=2:00:00\n", script)
+        self.assertFalse((self.base / "bin/foam_side.arguments").exists())
+        # What Slurm does with it: once, and again as if the first had ended without a state.
+        environment = {**os.environ, "FLUID": "complete", "PARTICLES": "complete"}
+        for _ in range(2):
+            done = subprocess.run(["bash", "runs/a.sbatch"], cwd=self.base, env=environment, capture_output=True, text=True,
+                                  timeout=60, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertTrue((self.base / "runs/a/results.json").exists())
+        self.assertIn("--out runs/a --set particles.ranks=2\n", self.arguments_of("dem_side"))
+
+    def test_a_job_that_would_be_refused_is_refused_at_once(self):
+        self.demvof("run", "case.yaml")
+        for options, said in ((("--slurm",), "give --force to replace it"),
+                              (("--slurm", "--continue"), "--continue"),
+                              (("--slurm", "--out", "b", "--slurm-option=partition=long"), "'partition=long' is no option"),
+                              (("--slurm-option=--time=1",), "give --slurm with it"),
+                              (("--slurm", "--continue", "--from", "1"), "leave --from out")):
+            code, output = self.demvof("run", "case.yaml", *options)
+            self.assertEqual(code, 2, output)
+            self.assertIn(said, output)
+        self.assertEqual(list(self.base.glob("*.sbatch")), [])
+        self.assertTrue((self.base / "run/results.json").exists())
+        self.assertEqual(self.demvof("run", "case.yaml", "--slurm", "--force")[0], 0)
+        self.assertFalse((self.base / "run/results.json").exists())
 
     def test_without_particles_foam_side_runs_alone(self):
         self.write_case("")

@@ -44,6 +44,8 @@ HANDSHAKE = {"^unit_handshake$": ["unit_handshake"], "^faults_mutants_handshake$
 CASE_FILE = {"^config_bad_case_files$": ["config_bad_case_files"], "^faults_mutants_case_file$": ["fuzz_case_file"]}
 GATHERED = {"^unit_gathered_state$": ["unit_gathered_state"]}
 LAUNCH = {"^unit_command_line$": ["unit_command_line"]}
+ENDINGS = {"^endings$": ["ending_actor"]}
+JOB = {"^unit_batch_script$": ["unit_batch_script"]}
 CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refusals"))
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
 NEIGHBOURS = {r"^sparse_exchange_test\.": ["sparse_exchange_test"]}
@@ -328,6 +330,13 @@ FAULTS = [
     ("coupler/config/given_values.cpp", "while (starts.marks.size() < 2 &&", "while (", CASE_FILE),
     ("coupler/cli/child_process.cpp", "&& state != 'Z' && state != 'X') return true;", "&& state != 'X') return true;", LAUNCH),
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
+    ("coupler/cli/child_process.cpp", "return name == one.substr(0, longest_name);", "return name != one.substr(0, longest_name);", LAUNCH),
+    ("coupler/cli/mpirun.cpp", 'set("oob_tcp_keepalive_intvl", seconds(0.0625));', 'set("oob_tcp_keepalive_intvl", seconds(0.5));', LAUNCH),
+    ("coupler/link/watch.cpp", "files.push_back({other.end, POLLIN, 0});", "continue;", ENDINGS),
+    ("coupler/cli/batch_script.cpp", 'option("ntasks", std::to_string(job.ranks));', 'option("ntasks", "1");', JOB),
+    ("coupler/cli/batch_script.cpp", "if [ -e {} ]; then", "if [ -d {} ]; then", JOB),
+    ("coupler/cli/batch_script.cpp", "    exec {}\\nfi", "    {}\\n    exit\\nfi", JOB),
+    ("coupler/cli/batch_script.cpp", "option.size() < 2 || option[0] != '-' ||", "option.size() < 2 ||", JOB),
     ("coupler/cli/launch.cpp", "watch.on_line(printable_lines(text));", "watch.on_line(text);", LAUNCH),
     ("coupler/cli/launch.cpp", "end.code == 3 && end.user_asked", "false", LAUNCH),
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include "coupler/cli/child_process.hpp"
 #include "coupler/cli/decompose.hpp"
 #include "coupler/cli/launch.hpp"
+#include "coupler/cli/mpirun.hpp"
 #include "coupler/cli/progress_display.hpp"
 #include "coupler/cli/run_folder.hpp"
 #include "coupler/cli/summary.hpp"
@@ -33,10 +35,10 @@ std::string output_of_shell(const std::string& line) {
   return text;
 }
 
-bool has_children(const std::vector<std::string>& command) {
+bool has_sleeping_children(const std::vector<std::string>& command) {
   const ChildProcess child(command);
   usleep(300000);
-  return child.has_children();
+  return child.has_children({"foam_side", "sleep"});
 }
 
 TEST(ShellLine, IsReadByAShellAsItWasMeant) {
@@ -73,21 +75,24 @@ TEST(ChildProcess, TellsItsExitCodeAndItsSignal) {
 }
 
 TEST(ChildProcess, KnowsWhetherItHasProgramsOfItsOwn) {
-  EXPECT_TRUE(has_children({"sh", "-c", "sleep 5; :"}));
-  EXPECT_FALSE(has_children({"sleep", "5"}));
-  EXPECT_FALSE(has_children({"sh", "-c", "sleep 0 & exec sleep 5"})) << "an unburied one does not run";
+  EXPECT_TRUE(has_sleeping_children({"sh", "-c", "sleep 5; :"}));
+  EXPECT_FALSE(has_sleeping_children({"sleep", "5"}));
+  EXPECT_FALSE(has_sleeping_children({"timeout", "5", "tail", "-f", "/dev/null"})) << "of another name";
+  EXPECT_FALSE(has_sleeping_children({"sh", "-c", "sleep 0 & exec sleep 5"}))
+      << "an unburied one does not run";
 }
 
-/// Open MPI 4 can wait for itself for ever after its programs have gone.
+/// Open MPI 4 can wait for itself for ever after its programs have gone, also beside a remote shell.
 TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
   const fs::path folder = fs::path(testing::TempDir()) / ("demvof_mpirun_" + std::to_string(getpid()));
   fs::create_directories(folder);
-  std::ofstream(folder / "mpirun") << "#!/bin/sh\nsleep 2 & wait\nexec sleep 1000\n";
+  std::ofstream(folder / "mpirun") << "#!/bin/sh\nsleep 20 &\nsleep 2 | cat\nexec sleep 1000\n";
   fs::permissions(folder / "mpirun", fs::perms::owner_all);
   const std::string path = getenv("PATH");
   setenv("PATH", (folder.string() + ":" + path).c_str(), 1);
   LaunchCommand command;
   command.words = {"mpirun"};
+  command.programs = {"cat"};
   command.pair = true;
   std::string said;
   Watch watch;
@@ -97,6 +102,19 @@ TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
   EXPECT_EQ(said, "mpirun does not end though its programs have: killing it");
   setenv("PATH", path.c_str(), 1);
   fs::remove_all(folder);
+}
+
+TEST(Mpirun, LosesAHostInHalfTheTimeThatTheSidesWaitForEachOther) {
+  for (const double time_out : {16.0, 600.0, 1e300}) {
+    const std::vector<std::string> words = mpirun_options({"Open MPI 4.1.4", 4}, time_out);
+    const auto value = [&words](const std::string& name) {
+      const auto at = std::find(words.begin(), words.end(), "oob_tcp_keepalive_" + name);
+      return at < words.end() - 1 ? std::stod(at[1]) : 0;
+    };
+    const double lost = value("time") + value("probes") * value("intvl");
+    EXPECT_LE(lost, time_out / 2);
+    EXPECT_GE(lost, std::min(5e4, time_out / 2) * 0.99);
+  }
 }
 
 /// Neither as the programs' own words nor as those of mpirun, which are shown when there are no others.
