@@ -28,6 +28,8 @@ int guarded_main(OwnWorld& world, const std::function<int()>& body) {
   } catch (const InputError& error) {
     world.fail(exit_input,
                fmt::format("{}: the input is wrong:\n{}", program_name(world.side()), error.what()));
+  } catch (const PartnerRefuses& error) {
+    world.fail(exit_input, error.what(), true);
   } catch (const PartnerFailed& error) {
     world.fail(exit_partner_lost, error.what(), true);
   } catch (const PartnerLost& error) {

@@ -70,12 +70,11 @@ void Waiting::throw_received() const {
   if (!notice) return;
   const Process& sender = world_.pair().processes[notice->from];
   heard_of(notice->failure);
-  // Who refuses the input says why, in words that need no repetition beside them.
-  const std::string text =
-      notice->failure.exit_code == exit_input
-          ? fmt::format("{}: {} refuses the input, and says why.", world_.self().name(), sender.name())
-          : fmt::format("{}: {} failed:\n{}", world_.self().name(), sender.name(), notice->failure.message);
-  if (sender.side == world_.side()) throw FellowFailed(text, notice->failure.exit_code);
+  const int code = notice->failure.exit_code;
+  const std::string who = fmt::format("{}: {}", world_.self().name(), sender.name());
+  const std::string text = fmt::format("{} failed:\n{}", who, notice->failure.message);
+  if (sender.side == world_.side()) throw FellowFailed(text, code);
+  if (code == exit_input) throw PartnerRefuses(who + " refuses the input, and says why.");
   throw PartnerFailed(text);
 }
 

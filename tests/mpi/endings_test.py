@@ -167,7 +167,7 @@ class Endings(unittest.TestCase):
 
     def test_same_failure_on_all_ranks_is_said_once(self):
         pair = Pair("windows", "bad_input", (1, 2))
-        output = self.check(pair, [4, 2, 2], ["the input is wrong"], mpirun_code=2)
+        output = self.check(pair, [2, 2, 2], ["the input is wrong"], mpirun_code=2)
         # By one of the two ranks; foam_side does not repeat it.
         self.assertEqual(output.count("dem_side: the input is wrong"), 1, output)
 
