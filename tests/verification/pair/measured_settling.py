@@ -21,7 +21,9 @@ from reporting.run import read_reference
 DIAMETER, DENSITY, LIQUID, NU = 290e-6, 1050, 950, 2.105e-5
 FRACTION = 0.49
 WIDTH, HEIGHT, TOP = 4 * DIAMETER, 24 * DIAMETER, 28 * DIAMETER  # of the column; of the suspension; of the liquid
-STIFFNESS, WINDOW, INTERVAL = 0.5, 0.02, 1.0
+# Window: so long that the springs of the contacts bring back what drag moves, k_t dt_w > 2 sum of beta (docs/stability.md).
+STIFFNESS, WINDOW, INTERVAL = 0.5, 0.1, 1.0
+EARLY = (2, 12)  # s: the suspension is still as it was made
 VOLUME = math.pi / 6 * DIAMETER**3
 STOKES = (DENSITY - LIQUID) * 9.81 * DIAMETER**2 / (18 * LIQUID * NU)
 
@@ -71,12 +73,11 @@ def rms(values):
     return float(numpy.sqrt(numpy.mean(numpy.square(values))))
 
 
-def sinking(times, heights):
-    """Mean speed of the spheres in the middle of the suspension, from the first output after 2 s to the last."""
-    begin = heights[0]
-    middle = (begin > HEIGHT / 2) & (begin < 0.85 * HEIGHT)
-    first = int(numpy.searchsorted(times, 2))
-    return float((heights[first] - heights[-1])[middle].mean() / (times[-1] - times[first]))
+def sinking(times, heights, begin, end):
+    """Mean speed of the spheres in the middle of the suspension between two times."""
+    middle = (heights[0] > HEIGHT / 2) & (heights[0] < 0.85 * HEIGHT)
+    first, last = numpy.searchsorted(times, (begin, end))
+    return float((heights[first] - heights[last])[middle].mean() / (times[last] - times[first]))
 
 
 def upper_front(heights):
@@ -88,6 +89,7 @@ def upper_front(heights):
 def lower_front(before, after, speed, interval):
     """Height that best divides spheres at rest below from those that sink above, in the middle of an interval."""
     height = (before + after) / 2
+    before, after, height = (one[height < HEIGHT / 2] for one in (before, after, height))
     order = numpy.argsort(height)
     at_rest = (before - after)[order] < speed * interval / 2
     wrong = numpy.cumsum(numpy.r_[0, ~at_rest]) + (at_rest.sum() - numpy.cumsum(numpy.r_[0, at_rest]))
@@ -106,21 +108,22 @@ def judge(record, demvof, law, end, seen):
     """seen: measured speeds of the upper and the lower front, m/s."""
     run, times, heights, slosh = simulate(demvof, law, end)
     exact = STOKES * (1 - FRACTION) / drag_over_stokes(law, 1 - FRACTION)
-    sinks = sinking(times, heights)
+    sinks, whole = sinking(times, heights, *EARLY), sinking(times, heights, EARLY[0], end)
     record.note(f"{law}: eps v_St/F", exact, "m/s")
-    record.note(f"{law}: speed of the suspension", sinks, "m/s")
-    record.at_most(f"{law}: off eps v_St/F", abs(sinks / exact - 1), 0.06,
-                   loose="the solid fraction of this suspension is not 0.49 everywhere; 1 % of it is 6 % of the speed")
-    record.note(f"{law}: off the measured upper front", sinks / seen[0] - 1)
-    fronts = [lower_front(heights[n - 2], heights[n], sinks, 2 * INTERVAL) for n in range(2, len(times))]
-    begin = int(numpy.searchsorted(times, 10))
-    rise = float(numpy.polyfit(times[begin:-1], fronts[begin - 1:], 1)[0])
+    record.note(f"{law}: speed of the suspension, {EARLY[0]} to {EARLY[1]} s", sinks, "m/s")
+    record.at_most(f"{law}: off eps v_St/F", abs(sinks / exact - 1), 0.08,
+                   loose="0.01 more or less of solid in the part that is looked at is 8 % of the speed")
+    record.note(f"{law}: speed of the suspension, {EARLY[0]} to {end:g} s", whole, "m/s")
+    record.note(f"{law}: off the measured upper front, {EARLY[0]} to {EARLY[1]} s", sinks / seen[0] - 1)
+    record.note(f"{law}: off the measured upper front, {EARLY[0]} to {end:g} s", whole / seen[0] - 1)
+    fronts = [lower_front(heights[n - 2], heights[n], whole, 2 * INTERVAL) for n in range(2, len(times))]
     bed = packed(heights[-1], fronts[-1])
     record.note(f"{law}: solid fraction of the sediment, measured 0.59", bed)
-    record.note(f"{law}: speed of the lower front", rise, "m/s")
-    record.note(f"{law}: off the measured lower front", rise / seen[1] - 1)
-    record.note(f"{law}: off Kynch's, with the sediment of this run", rise * (bed - FRACTION) / (sinks * FRACTION) - 1)
-    record.note(f"{law}: mean horizontal velocity of all spheres over the speed of the suspension, rms", slosh / sinks)
+    record.note(f"{law}: speed of the lower front by Kynch, with that sediment: off the measured one",
+                whole * FRACTION / (bed - FRACTION) / seen[1] - 1)
+    record.note(f"{law}: height of the lower front at the end, over the diameter (it is read to one diameter)", fronts[-1] / DIAMETER)
+    record.note(f"{law}: the same by the measured speed", seen[1] * times[-2] / DIAMETER)
+    record.note(f"{law}: mean horizontal velocity of all spheres over the speed of the suspension, rms", slosh / whole)
     upper = [upper_front(one) / DIAMETER for one in heights]
     record.curve("fronts", "t, s", "height / d", f"{law}: upper", times, upper, style="-")
     record.curve("fronts", "t, s", "height / d", f"{law}: lower", times[1:-1], [z / DIAMETER for z in fronts], style="-")
@@ -129,7 +132,13 @@ def judge(record, demvof, law, end, seen):
 
 def main():
     demvof = command_line().demvof
-    record = Record("measured_settling", "A dense suspension that settles, against the experiment", "TODO",
+    record = Record("measured_settling", "A dense suspension that settles, against the experiment", "359 spheres of 290 um in oil, solid fraction 0.49, 24 diameters high in a periodic column of 4, sink for 30 s through the real pair, against "
+                    "the fronts that Pham Van Bang measured over 1140 s in a column of 180 diameters (tests/verification/pair/measured); a front's "
+                    "speed does not depend on the height. Soft contacts (0.5 N/m, friction 0.3). Nothing is fitted to the data. The suspension has to "
+                    "sink as its law of drag says; the laws then differ by two thirds. The lower front also depends on the solid fraction of the sediment less that "
+                    "of the suspension, 0.1, of which each hundredth counts for 10 %; in 30 s it rises by 3.5 diameters and is read to one, so that its speed is "
+                    "not a result of this test. The window is long on purpose: with 20 ms the whole suspension "
+                    "slides to and fro (docs/stability.md).",
                     "tests/Alltest --verification -- -R pair.measured_settling")
     _, table = read_reference(pathlib.Path(__file__).parent / "measured" / "pham_van_bang_settling.csv")
     seen = [abs(float(numpy.polyfit(table["t_s"], table[name], 1)[0])) for name in ("upper_m", "lower_m")]
@@ -137,11 +146,11 @@ def main():
         record.note(f"measured: speed of the {name} front", speed, "m/s")
     record.note("measured: error of both from the pixels of 0.78 mm", 0.78e-3 / math.sqrt(12) / (table["t_s"].std() * math.sqrt(len(table["t_s"]))), "m/s")
     for law in ("gidaspow", "di_felice", "beetstra"):
-        judge(record, demvof, law, 40.0, seen)
-    times = numpy.array([0.0, 40])
+        judge(record, demvof, law, 30.0, seen)
+    times = numpy.array([0.0, 30])
     record.curve("fronts", "t, s", "height / d", "measured slopes", times, (HEIGHT - seen[0] * times) / DIAMETER, style="k--")
     record.curve("fronts", "t, s", "height / d", "measured slopes, lower", times, seen[1] * times / DIAMETER, style="k:")
-    momentum_of_everything(record, 1e-8)
+    momentum_of_everything(record, 2e-13)
     sys.exit(record.write())
 
 

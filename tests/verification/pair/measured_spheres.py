@@ -152,7 +152,7 @@ def fine_enough(record, demvof, sphere):
     whole = fit(times, speed)
     for what, options in {"windows and DEM steps half as long": {"windows": 2 * WINDOWS}, "a tank of 144 d": {"across": 18}}.items():
         other = fit(*fall(demvof, sphere, "schiller_naumann", forces, **options))
-        record.at_most(f"{sphere.name}, {what}: change of V", abs(other[0] / whole[0] - 1), 4e-4)
+        record.at_most(f"{sphere.name}, {what}: change of V", abs(other[0] / whole[0] - 1), 3.5e-4)
         record.at_most(f"{sphere.name}, {what}: change of T", abs(other[1] / whole[1] - 1), 5e-3)
     half = times <= sphere.time * (1 + 1e-9)
     part = fit(times[half], speed[half])
