@@ -18,11 +18,6 @@ struct PartnerLost : std::runtime_error {
 struct PartnerFailed : PartnerLost {
   using PartnerLost::PartnerLost;
 };
-/// A rank of the partner refuses the input, and says why. Exit code 2: the input of the pair is wrong, whoever
-/// found it.
-struct PartnerRefuses : PartnerFailed {
-  using PartnerFailed::PartnerFailed;
-};
 /// A solver library (OpenFOAM, LIGGGHTS) ended the program on its own. Exit code 3. The library's
 /// objects are half taken down by then: leave them alone, do not destroy them.
 struct SolverStopped : std::runtime_error {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <optional>
 #include <string>
 
 #include "coupler/base/errors.hpp"
@@ -18,6 +19,12 @@ std::string stopped(const OwnWorld& world, const std::string& why) {
   return fmt::format("{} stopped {}:\n{}", program_name(world.side()), run_stage().describe(), why);
 }
 
+/// Wrong input is wrong for both sides, whichever of them is the first to end.
+int code_without_partner() {
+  const std::optional<Failure> cause = cause_heard();
+  return cause && cause->exit_code == exit_input ? exit_input : exit_partner_lost;
+}
+
 }  // namespace
 
 int guarded_main(OwnWorld& world, const std::function<int()>& body) {
@@ -28,12 +35,10 @@ int guarded_main(OwnWorld& world, const std::function<int()>& body) {
   } catch (const InputError& error) {
     world.fail(exit_input,
                fmt::format("{}: the input is wrong:\n{}", program_name(world.side()), error.what()));
-  } catch (const PartnerRefuses& error) {
-    world.fail(exit_input, error.what(), true);
   } catch (const PartnerFailed& error) {
-    world.fail(exit_partner_lost, error.what(), true);
+    world.fail(code_without_partner(), error.what(), true);
   } catch (const PartnerLost& error) {
-    world.fail(exit_partner_lost, error.what());
+    world.fail(code_without_partner(), error.what());
   } catch (const FellowFailed& error) {
     world.fail(error.exit_code, error.what(), true);
   } catch (const SolverStopped& error) {

@@ -74,7 +74,7 @@ void Waiting::throw_received() const {
   const std::string who = fmt::format("{}: {}", world_.self().name(), sender.name());
   const std::string text = fmt::format("{} failed:\n{}", who, notice->failure.message);
   if (sender.side == world_.side()) throw FellowFailed(text, code);
-  if (code == exit_input) throw PartnerRefuses(who + " refuses the input, and says why.");
+  if (code == exit_input) throw PartnerFailed(who + " refuses the input, and says why.");
   throw PartnerFailed(text);
 }
 

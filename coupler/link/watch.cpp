@@ -98,7 +98,6 @@ void Watch::look_now() {
 void Watch::check() const {
   if (!lost_) return;
   if (loss_code_) throw FellowFailed(loss_, *loss_code_);
-  if (input_refused_) throw PartnerRefuses(loss_);
   throw PartnerLost(loss_);
 }
 
@@ -164,8 +163,7 @@ void Watch::handle_loss(const Process& ended) {
     heard_of(*note);
     loss_ = fmt::format("{}: {} failed:\n{}", self_.name(), ended.name(), note->message);
     if (ended.side == self_.side) exit_code = *(loss_code_ = note->exit_code);
-    input_refused_ = note->exit_code == exit_input;
-    if (input_refused_) exit_code = exit_input;
+    if (note->exit_code == exit_input) exit_code = exit_input;
   } else {
     loss_ = fmt::format(
         "{} lost {}: it was killed or ended without a word. This side was {}.\n"

@@ -63,7 +63,6 @@ class Watch {
   std::vector<Watched> watched_;
   std::string loss_;              // written once before lost_ is set
   std::optional<int> loss_code_;  // of a fellow that left a note; likewise
-  bool input_refused_ = false;    // that is why
   std::atomic<bool> lost_{false}, main_waits_{false}, standing_down_{false}, quit_{false};
   std::thread thread_;
 };
