@@ -68,10 +68,7 @@ void write_index(const fs::path& path, MPI_Comm world, const std::string& stem) 
   for (const auto& [name, values] : named_vectors(ParticleFrame{}))
     arrays += vtk_file::declared_array(name, 3);
   arrays += "</PPointData>\n<PPoints>\n" + vtk_file::declared_array("Points", 3) + "</PPoints>\n";
-  std::vector<std::string> pieces;
-  for (int rank = 0; rank < vtk_file::size_of(world); ++rank)
-    pieces.push_back(fmt::format("Source=\"{}\"", vtk_file::piece_name(world, stem, "vtp", rank)));
-  vtk_file::write_pieces(path, "PPolyData", "", arrays, pieces);
+  vtk_file::write_pieces(path, "PPolyData", "", arrays, vtk_file::pieces_of_ranks(world, stem, "vtp"));
 }
 
 }  // namespace

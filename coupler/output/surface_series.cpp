@@ -30,11 +30,9 @@ void write_triangles(const fs::path& path, const std::vector<Vec3>& corners) {
 }
 
 void write_index(const fs::path& path, MPI_Comm world, const std::string& stem) {
-  std::vector<std::string> pieces;
-  for (int rank = 0; rank < vtk_file::size_of(world); ++rank)
-    pieces.push_back(fmt::format("Source=\"{}\"", vtk_file::piece_name(world, stem, "vtp", rank)));
   vtk_file::write_pieces(path, "PPolyData", "",
-                         "<PPoints>\n" + vtk_file::declared_array("Points", 3) + "</PPoints>\n", pieces);
+                         "<PPoints>\n" + vtk_file::declared_array("Points", 3) + "</PPoints>\n",
+                         vtk_file::pieces_of_ranks(world, stem, "vtp"));
 }
 
 bool same(const std::vector<Vec3>& some, const std::vector<Vec3>& others) {

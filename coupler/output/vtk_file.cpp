@@ -53,6 +53,13 @@ std::string piece_name(MPI_Comm world, const std::string& stem, const std::strin
                              : fmt::format("{}_{}.{}", stem, rank, ending);
 }
 
+std::vector<std::string> pieces_of_ranks(MPI_Comm world, const std::string& stem, const std::string& ending) {
+  std::vector<std::string> pieces;
+  for (int rank = 0; rank < size_of(world); ++rank)
+    pieces.push_back(fmt::format("Source=\"{}\"", piece_name(world, stem, ending, rank)));
+  return pieces;
+}
+
 void write_pieces(const fs::path& path, const std::string& type, const std::string& attributes,
                   const std::string& arrays, const std::vector<std::string>& pieces) {
   std::string text = fmt::format(

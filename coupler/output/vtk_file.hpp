@@ -68,6 +68,9 @@ void write(const std::filesystem::path& path, Data* data) {
 /// What a rank's file of a frame is called: STEM.ENDING on one rank, STEM_RANK.ENDING on several.
 std::string piece_name(MPI_Comm world, const std::string& stem, const std::string& ending, int rank);
 
+/// The attributes of all ranks' files of a frame, for write_pieces.
+std::vector<std::string> pieces_of_ranks(MPI_Comm world, const std::string& stem, const std::string& ending);
+
 /// Writes the file that shows pieces as one (VTK's parallel writers need VTK's own MPI layer). Each piece:
 /// its attributes in XML, as Source="FILE".
 void write_pieces(const std::filesystem::path& path, const std::string& type, const std::string& attributes,
