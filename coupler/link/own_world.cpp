@@ -159,12 +159,13 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
 }
 
 bool OwnWorld::heard_the_same(const std::string& reason) const {
+  const auto same = [&reason](const std::string& said) { return said == reason.substr(0, said.size()); };
+  // It may have come while this rank still waited for all to hear of a disagreement.
+  if (const auto cause = cause_heard(); cause && cause->side == side_ && same(cause->message)) return true;
   for (int i = 0; i < 200; ++i) {
     try {
       if (const auto notice = pair_->failure_signal->receive())
-        if (const std::string& said = notice->failure.message;
-            pair_->processes[notice->from].side == side_ && said == reason.substr(0, said.size()))
-          return true;
+        if (pair_->processes[notice->from].side == side_ && same(notice->failure.message)) return true;
     } catch (const std::exception&) {
       return false;
     }

@@ -182,9 +182,8 @@ class Endings(unittest.TestCase):
         pair = Pair("disagree", "disagree", (2, 2))
         line = "coupling.window: foam_side has '1e-4', dem_side has '2e-4'"
         output = self.check(pair, [(2, None)] * 4, [line], mpirun_code=2)
-        # Each side says it once; a rank that did not hear from its fellow for a second, or whose fellow was killed by mpirun
-        # before it could pass it on, too (once in 20 on a loaded machine on both sides).
-        self.assertIn(output.count(line), (2, 3, 4), output)
+        # Each side says it once; a rank whose fellow was killed by mpirun before it could pass it on, too.
+        self.assertIn(output.count(line), (2, 3), output)
 
     # Silence.
     def test_time_out(self):
