@@ -9,27 +9,16 @@
 #include "atom.h"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/sphere.hpp"
-#include "fix_property_global.h"
-#include "lammps.h"
-#include "modify.h"
+#include "dem_side/script_property.hpp"
 
 namespace demvof {
-namespace {
-
-LAMMPS_NS::FixPropertyGlobal* property(LAMMPS_NS::LAMMPS& liggghts, const char* name, const char* kind,
-                                       int rows, int columns) {
-  return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
-      liggghts.modify->find_fix_property(name, "property/global", kind, rows, columns, "demvof", false));
-}
-
-}  // namespace
 
 ContactTimes shortest_contact_times(LAMMPS_NS::LAMMPS& liggghts) {
   const LAMMPS_NS::Atom& atom = *liggghts.atom;
   const int types = atom.ntypes;
-  auto* stiffness = property(liggghts, "kn", "peratomtypepair", types, types);
-  auto* modulus = property(liggghts, "youngsModulus", "peratomtype", types, 0);
-  auto* poisson = property(liggghts, "poissonsRatio", "peratomtype", types, 0);
+  auto* stiffness = script_property(liggghts, "kn", "peratomtypepair", types, types);
+  auto* modulus = script_property(liggghts, "youngsModulus", "peratomtype", types, 0);
+  auto* poisson = script_property(liggghts, "poissonsRatio", "peratomtype", types, 0);
 
   double shortest[] = {HUGE_VAL, HUGE_VAL};
   for (int i = 0; i < atom.nlocal; ++i) {

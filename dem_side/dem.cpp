@@ -243,6 +243,14 @@ double Dem::time_step() const {
   return liggghts_->update->dt;
 }
 
+int Dem::type(int i) const {
+  return liggghts_->atom->type[i];
+}
+
+ContactStiffness Dem::contact_stiffness() const {
+  return ContactStiffness(*liggghts_);
+}
+
 ContactTimes Dem::contact_times() const {
   return shortest_contact_times(*liggghts_);
 }

@@ -13,6 +13,7 @@
 
 #include "coupler/base/vec3.hpp"
 #include "dem_side/clumps.hpp"
+#include "dem_side/contact_stiffness.hpp"
 #include "dem_side/contact_times.hpp"
 #include "dem_side/near_surfaces.hpp"
 #include "dem_side/particle_arrays.hpp"
@@ -91,6 +92,7 @@ class Dem {
   /// With clumps found anew: a call for all particles, none for each.
   ParticleArrays particles() const;
   int mask(int i) const;  // of local particle i
+  int type(int i) const;  // of it, from 1
   /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
   /// that are frozen, moved by prescription or not integrated at all.
   bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
@@ -111,7 +113,8 @@ class Dem {
   MPI_Comm world() const { return world_; }
   double time_step() const;            // s
   ContactTimes contact_times() const;  // collective
-  Vec3 script_gravity() const;         // of fix gravity, m/s2
+  ContactStiffness contact_stiffness() const;
+  Vec3 script_gravity() const;  // of fix gravity, m/s2
   /// What acts in place of it from here on, m/s2: the added forces make up for the difference. Throws
   /// InputError when there is no fix gravity to say on which particles.
   void set_gravity(const Vec3& gravity);

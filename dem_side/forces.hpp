@@ -125,6 +125,11 @@ class FluidForces {
   /// The same of what holds it.
   std::function<Support(int)> support(int k = 0) const;
 
+  /// Share of the window that local particle i was in contact, -; 0 of one that no force moves.
+  double touching_share(int i) const { return moved_by_forces(i) ? held_share(carried(i), i) : 0; }
+  /// n beta of fluid k over the window, kg/s, with the share of i that lies in it.
+  double drag_tangent(int i, int k) const { return mean_drag_tangent(carried(i), k); }
+  double window() const { return window_; }  // s; 0 before the first one
   /// State of local particle i.
   const CarriedRow& carried(int i) const;
   /// -V sum_k a_k grad p_k on it, N.

@@ -7,6 +7,7 @@
 
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/output/machine.hpp"
+#include "dem_side/soft_contacts.hpp"
 
 namespace demvof {
 namespace {
@@ -18,11 +19,13 @@ struct Sums {
   double kinetic_energy = 0, potential_energy = 0;
   WindowImpulses impulses;
   Vec3 drag_impulse_bulk, unplaced_left_over;
+  double touching = 0, on_soft_springs = 0;
   double peak_memory_bytes = 0;
 };
 struct Extremes {
   double front[3];
   double max_speed = 0;
+  double holding_window = 0, stiffness_rate = 0;  // of soft contacts
 };
 
 void reduce(double* values, std::size_t bytes, MPI_Op operation, MPI_Comm world) {
@@ -58,6 +61,7 @@ Vec3 half_step_momentum(const Dem& dem) {
 
 Report::Report(const Dem& dem)
     : dem_(dem),
+      contact_stiffness_(dem.contact_stiffness()),
       count_(dem.census().whole),
       inserted_before_(dem.inserted()),
       left_before_(dem.taken_out()) {}
@@ -80,7 +84,7 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
   constexpr double lowest = std::numeric_limits<double>::lowest();
 
   Sums sums;
-  Extremes extremes{{lowest, lowest, lowest}, 0};
+  Extremes extremes{{lowest, lowest, lowest}};
   sums.count = static_cast<double>(dem_.whole_particles());
   for (int i = 0; i < particles.count; ++i) {
     const double mass = particles.mass[i];
@@ -98,6 +102,11 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
       sums.solid_volume_bulk += cell.solid_volume;
       sums.drag_impulse_bulk += cell.drag_impulse;
     }
+  const SoftContacts soft = count_soft_contacts(dem_, forces, contact_stiffness_);
+  sums.touching = soft.touching;
+  sums.on_soft_springs = soft.soft;
+  extremes.holding_window = soft.holding_window;
+  extremes.stiffness_rate = soft.rate;
   sums.replaced_volume = replaced_volume;
   sums.impulses = forces.impulses();
   sums.outside_fluid = static_cast<double>(averaging.outside());
@@ -116,6 +125,10 @@ ParticleReport Report::window(const FluidForces& forces, const Averaging& averag
   report.waiting_for_fluid = std::max(sums.waiting_for_fluid - outside_before_, 0.0);
   report.outside_fluid = sums.outside_fluid;
   outside_before_ = sums.outside_fluid;
+  report.touching = sums.touching;
+  report.on_soft_springs = sums.on_soft_springs;
+  report.holding_window = extremes.holding_window;
+  if (extremes.stiffness_rate > 0) report.mild_window = stiff_in_a_window / extremes.stiffness_rate;
   report.mass = sums.mass;
   report.solid_volume = sums.solid_volume;
   report.solid_volume_bulk = sums.solid_volume_bulk;

@@ -3,6 +3,7 @@
 
 #include "coupler/exchange/particle_report.hpp"
 #include "coupler/transfer/averaging.hpp"
+#include "dem_side/contact_stiffness.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/forces.hpp"
 
@@ -37,6 +38,7 @@ class Report {
   void count_changes(long now);
 
   const Dem& dem_;
+  ContactStiffness contact_stiffness_;
   double outside_before_ = 0;                // particles outside the fluid at the end of the window before
   long count_ = 0;                           // at the end of the last window
   long inserted_before_ = 0;                 // by the script's insertions, before the coupled run

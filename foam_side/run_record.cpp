@@ -14,6 +14,7 @@
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/verdict.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "foam_side/run_warnings.hpp"
 
 namespace demvof {
 
@@ -169,6 +170,13 @@ void RunRecord::enter(RunResults& results, const ParticleReport& particles) {
   limits_.unplaced_volume = std::max(limits_.unplaced_volume, particles.unplaced_volume);
   limits_.waiting_particles += std::lround(particles.waiting_for_fluid);
   limits_.outside_particles += std::lround(particles.outside_fluid);
+  constexpr double soft_share = 0.1;  // of those in contact, that is worth a warning
+  if (particles.on_soft_springs > soft_share * particles.touching) {
+    const bool first = limits_.soft_windows++ == 0;
+    limits_.holding_window = std::max(limits_.holding_window, particles.holding_window);
+    limits_.mild_window =
+        first ? particles.mild_window : std::min(limits_.mild_window, particles.mild_window);
+  }
   limits_.unplaced_left_over += norm(particles.left_over_unplaced);
   last_particles_ = particles;
 }
@@ -289,83 +297,6 @@ void RunRecord::write_row(const Flow& flow, const ParticleReport* particles) {
   history_->append(flow.time.value(), row);
 }
 
-/// One line for every limit that acted in the run; counts are cells or particles times windows.
-std::vector<std::string> RunRecord::warnings(const Flow& flow) const {
-  constexpr double unbounded = 1e-8;  // of alpha; what MULES promises
-  std::vector<std::string> lines = flow.scene.advice;
-  if (flow.alpha_excess > unbounded)
-    lines.push_back(fmt::format(
-        "alpha left [0, 1] by up to {:.2g}: nLimiterIter 10 (MULES's own is 3), more "
-        "nAlphaSubCycles or a smaller maxAlphaCo (docs/warnings.md, Liquid fraction out of bounds)",
-        flow.alpha_excess));
-  if (limits_.relieved_cells > 0)
-    lines.push_back(
-        fmt::format("bulk cells above coupling.averaging.maximum_solid_fraction passed {:.3g} m3 to their "
-                    "neighbours, {} times (docs/warnings.md, Too much solid in a bulk cell)",
-                    limits_.relieved_volume, limits_.relieved_cells));
-  if (limits_.unplaced_volume > 0)
-    lines.push_back(
-        fmt::format("no room on the bulk grid for up to {:.3g} m3 above the maximum solid fraction "
-                    "(docs/warnings.md, Too much solid in a bulk cell)",
-                    limits_.unplaced_volume));
-  if (limits_.negative_cells > 0)
-    lines.push_back(fmt::format(
-        "coupling.mapping.to_fine interpolated a solid fraction below 0, {} times: it was taken as "
-        "0, and conservation.solid_volume has the error (docs/warnings.md, Negative solid fraction)",
-        limits_.negative_cells));
-  if (limits_.full_cells > 0)
-    lines.push_back(fmt::format(
-        "fine cells kept a void fraction of 0.05 though particles fill more of them, {} times: so much is "
-        "not "
-        "displaced, and conservation.solid_volume has the error. Try a coarser bulk_grid, a larger "
-        "coupling.averaging.width or a smaller coupling.averaging.maximum_solid_fraction (docs/warnings.md, "
-        "Full fine cells)",
-        limits_.full_cells));
-  if (limits_.held_back.cells > 0)
-    lines.push_back(
-        fmt::format("bulk cells that hold next to no particles owed them more pressure than ten times the "
-                    "steepest there, {} times: up to {:.3g} N s waited for a later window (docs/warnings.md, "
-                    "Owed pressure)",
-                    limits_.held_back.cells, limits_.held_back.impulse));
-  if (limits_.waiting_particles > 0)
-    lines.push_back(
-        fmt::format("particles felt no fluid {} times: new in a window, or where there is none "
-                    "(docs/warnings.md, Particles without fluid)",
-                    limits_.waiting_particles));
-  if (limits_.outside_particles > 0)
-    lines.push_back(
-        fmt::format("particles were outside the fluid's mesh {} times: there they displace nothing and feel "
-                    "nothing (docs/warnings.md, Particles outside the fluid)",
-                    limits_.outside_particles));
-  if (books_->gone_impulse() > 0)
-    lines.push_back(
-        fmt::format("impulse of {:.3g} N s went with particles in the window in which they left "
-                    "(docs/warnings.md, Impulse that left)",
-                    books_->gone_impulse()));
-  if (limits_.drop_resolution < drop_resolution * (1 - 1e-6))
-    lines.push_back(fmt::format(
-        "particles became liquid with {:.3g} fine cells per diameter: replacement needs {} for the shape "
-        "of the drop, refine the mesh at the interface (docs/warnings.md, Drops on a coarse mesh)",
-        limits_.drop_resolution, drop_resolution));
-  if (limits_.crossing_windows > 0)
-    lines.push_back(
-        fmt::format("there were particles at the interface in {} windows, against "
-                    "coupling.phase_interchange: none (docs/warnings.md, Particles at the surface)",
-                    limits_.crossing_windows));
-  if (limits_.unplaced_left_over > 0)
-    lines.push_back(
-        fmt::format("left-over impulse of {:.3g} N s found no particle to receive it (docs/warnings.md, "
-                    "Left-over without receiver)",
-                    limits_.unplaced_left_over));
-  for (const auto& [name, evaluations, outside] : shared_->results.closures)
-    if (outside > 0)
-      lines.push_back(
-          fmt::format("{} was evaluated outside the range it was fitted for in {} of {} cases ({:.3g} %) "
-                      "(docs/warnings.md, Range of a law)",
-                      name, outside, evaluations, 100.0 * outside / evaluations));
-  return lines;
-}
-
 RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   if (flow.time.value() > last_row_) write_row(flow, last_particles_ ? &*last_particles_ : nullptr);
   if (!writes_) return status;
@@ -373,7 +304,7 @@ RunStatus RunRecord::finish(const Flow& flow, RunStatus status) {
   RunResults& results = shared_->results;
   const Verdict verdict = judge(results, parameters_.limits, {flow.clock.largest_courant, largest_speed_},
                                 pays_drag_impulse(parameters_.coupling.exchange));
-  results.warnings = warnings(flow);
+  results.warnings = run_warnings(flow, limits_, books_->gone_impulse(), results.closures);
   results.warnings.insert(results.warnings.begin(), verdict.warnings.begin(), verdict.warnings.end());
   results.status = verdict.failure ? RunStatus::failed : status;
   if (verdict.failure) {

@@ -22,6 +22,7 @@
 #include "foam_side/flow.hpp"
 #include "foam_side/quantities.hpp"
 #include "foam_side/replacement.hpp"
+#include "foam_side/run_warnings.hpp"
 
 namespace demvof {
 
@@ -81,7 +82,6 @@ class RunRecord {
   void enter(RunResults& results, const ParticleReport& particles);
   Quantities all_quantities(const Flow& flow, const ParticleReport* particles) const;
   void write_row(const Flow& flow, const ParticleReport* particles);
-  std::vector<std::string> warnings(const Flow& flow) const;
 
   std::filesystem::path out_;
   const CaseParameters& parameters_;
@@ -102,16 +102,7 @@ class RunRecord {
   } last_window_;  // as history.csv has it
   std::optional<ParticleReport> last_particles_;
 
-  /// Limits that acted, over the windows so far.
-  struct Limits {
-    long relieved_cells = 0, waiting_particles = 0, outside_particles = 0, negative_cells = 0;
-    long full_cells = 0;
-    long crossing_windows = 0;
-    OwedPressure::HeldBack held_back;                 // cells: over the windows; impulse: most in one
-    double drop_resolution = 1e9;                     // fewest cells per diameter
-    double relieved_volume = 0, unplaced_volume = 0;  // m3
-    double unplaced_left_over = 0;                    // N s
-  } limits_;
+  ActedLimits limits_;
 };
 
 }  // namespace demvof

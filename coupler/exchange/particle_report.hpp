@@ -13,7 +13,10 @@ struct ParticleReport {
   // Particles now; put in, taken out by the script, and gone otherwise since the start of the coupled run.
   double count = 0, inserted = 0, left = 0, lost = 0;
   double waiting_for_fluid = 0;  // particles inside the mesh that felt no fluid in this window
-  double outside_fluid = 0;      // particles outside the fluid's mesh: they displace nothing and feel nothing
+  // In contact, and of these on springs that the drag outruns; windows that would not, s
+  // (dem_side/soft_contacts.hpp).
+  double touching = 0, on_soft_springs = 0, holding_window = 0, mild_window = 0;
+  double outside_fluid = 0;  // particles outside the fluid's mesh: they displace nothing and feel nothing
 
   double mass = 0, solid_volume = 0;  // kg, m3
   double solid_volume_bulk = 0;       // summed over the bulk grid, m3

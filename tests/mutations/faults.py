@@ -50,6 +50,8 @@ CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refus
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
 NEIGHBOURS = {r"^sparse_exchange_test\.": ["sparse_exchange_test"]}
 SERIES = {r"^vtk_series_test\.": ["vtk_series_test"]}
+SPRINGS = {r"^mock_dem_springs\.": ["mock_dem_springs"]}
+SOFT_PAIR = {"^pair.soft_springs$": PAIR}
 PLACES = {"^faults_places$": [*PAIR, "failing_files"]}
 
 FAULTS = [
@@ -364,4 +366,12 @@ FAULTS = [
     ("coupler/output/bulk_series.cpp", "layers.owner(cell / cells_in_layer(grid_))", "layers.owner(0 * cell)", SERIES),
     ("coupler/output/bulk_series.cpp", "is_active->SetValue(active.cells[i] - begin, 1);", "is_active->SetValue(active.cells[i] - active.cells[0], 1);", SERIES),
     ("coupler/output/surface_series.cpp", "&moved, 1, MPI_INT, MPI_MAX, world_", "&moved, 1, MPI_INT, MPI_MIN, world_", SERIES),
+    # ---- contacts that drag outruns
+    ("dem_side/soft_contacts.cpp", "*spring * window >= 2 * tangent", "*spring * window >= tangent", SPRINGS),
+    ("dem_side/soft_contacts.cpp", "if (forces.touching_share(i) < 0.5) continue;", "if (forces.touching_share(i) < 0) continue;", SPRINGS),
+    ("dem_side/soft_contacts.cpp", "forces.drag_tangent(i, k) * (1 - fluid.void_fraction)", "forces.drag_tangent(i, k)", SPRINGS),
+    ("dem_side/contact_stiffness.cpp", "modulus->compute_vector(type) / (2 * (1 - nu * nu))", "modulus->compute_vector(type) / (1 - nu * nu)", SPRINGS),
+    ("dem_side/contact_stiffness.cpp", "std::sqrt(radius / 2) * modulus", "std::sqrt(radius) * modulus", SPRINGS),
+    ("dem_side/report.cpp", "report.holding_window = extremes.holding_window;", "", SOFT_PAIR),
+    ("foam_side/run_record.cpp", "particles.on_soft_springs > soft_share * particles.touching", "particles.on_soft_springs < soft_share * particles.touching", SOFT_PAIR),
 ]
