@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Messages, bytes and collectives of the coupler per window and rank, on more and more ranks with equal work each:
 
@@ -16,15 +16,12 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "verification" / "pair"))
-
-from box_case import BoxCase, Particle  # noqa: E402
-
 RECORD, PAGE = pathlib.Path(__file__).with_suffix(".json"), ROOT / "docs" / "performance.md"
 CELL, BEADS, WINDOW = 0.01, 3, 1e-3  # m; beads of a block each way; s
 TO_ONE = ("MPI_Isend", "MPI_Issend", "MPI_Send")
@@ -47,6 +44,8 @@ def cut(ranks, edge):
 
 
 def box(folder, ranks, windows, options):
+    sys.path.insert(0, str(ROOT / "tests" / "verification" / "pair"))
+    from box_case import BoxCase, Particle
     sides, bulk, edge = blocks(ranks), options.edge, options.edge * CELL
     case = BoxCase(folder, upper=[n * edge for n in sides], fine=[2 * n * bulk for n in sides], bulk=[n * bulk for n in sides],
                    end_time=windows * WINDOW, window=WINDOW, dem_step=WINDOW / 10, contacts=True)
@@ -94,7 +93,7 @@ def calls(count, name):
 def per_window(options, ranks):
     """Of the rank with most: messages, bytes, receivers; collectives by name. Each per window."""
     runs = {windows: counted(options, ranks, windows) for windows in (4, 8)}
-    row = {"ranks": ranks, "edge": options.edge, "turned": options.turned, "commit": commit(), "cut": cut(ranks, options.edge)}
+    row = {"ranks": ranks, "edge": options.edge, "turned": options.turned, "commit": commit(options.demvof), "cut": cut(ranks, options.edge)}
     for side in ("foam_side", "dem_side"):
         of = {windows: [c for c in found if c["program"] == side] for windows, found in runs.items()}
         most = {key: {windows: max(total(c, key) for c in found) for windows, found in of.items()} for key in ("calls", "bytes")}
@@ -106,9 +105,9 @@ def per_window(options, ranks):
     return row
 
 
-def commit():
-    return subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True,
-                          check=True).stdout.strip()
+def commit(demvof):
+    said = subprocess.run([demvof, "--version"], capture_output=True, text=True, check=True).stdout
+    return re.search(r"\((.*)\)", said.splitlines()[0])[1]
 
 
 def line(row):
