@@ -32,8 +32,15 @@ CellId CellRange::size() const {
   return size;
 }
 
-BulkPartition::BulkPartition(const std::array<int, 3>& cells, int ranks)
-    : cells_(cells), blocks_(numbers_of_blocks(cells, ranks)), ranks_(ranks) {}
+BulkPartition::BulkPartition(const std::array<int, 3>& cells, int ranks, RankOrder order)
+    : cells_(cells), blocks_(numbers_of_blocks(cells, ranks)), ranks_(ranks) {
+  const auto [x, y, z] = blocks_;
+  stride_ = order == RankOrder::x_fastest ? std::array{1, x, x * y} : std::array{y * z, z, 1};
+}
+
+int BulkPartition::rank_of(const std::array<int, 3>& block) const {
+  return block[0] * stride_[0] + block[1] * stride_[1] + block[2] * stride_[2];
+}
 
 std::array<int, 3> BulkPartition::ijk(CellId cell) const {
   const CellId row = cell / cells_[0];
@@ -59,7 +66,9 @@ CellRange BulkPartition::range_of(const std::array<int, 3>& block) const {
 }
 
 std::array<int, 3> BulkPartition::place_among_blocks(int rank) const {
-  return {rank % blocks_[0], rank / blocks_[0] % blocks_[1], rank / blocks_[0] / blocks_[1]};
+  std::array<int, 3> place;
+  for (int axis = 0; axis < 3; ++axis) place[axis] = rank / stride_[axis] % blocks_[axis];
+  return place;
 }
 
 CellRange BulkPartition::block(int rank) const {
@@ -78,8 +87,7 @@ std::vector<CellId> BulkPartition::cells(int rank) const {
 }
 
 int BulkPartition::owner(CellId cell) const {
-  const std::array<int, 3> block = block_of(ijk(cell));
-  return block[0] + blocks_[0] * (block[1] + blocks_[1] * block[2]);
+  return rank_of(block_of(ijk(cell)));
 }
 
 CellId BulkPartition::place(CellId cell) const {
@@ -98,7 +106,8 @@ std::vector<int> BulkPartition::owners_within(const CellRange& range) const {
                            last = block_of({range.end[0] - 1, range.end[1] - 1, range.end[2] - 1});
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
-      for (int i = first[0]; i <= last[0]; ++i) owners.push_back(i + blocks_[0] * (j + blocks_[1] * k));
+      for (int i = first[0]; i <= last[0]; ++i) owners.push_back(rank_of({i, j, k}));
+  std::sort(owners.begin(), owners.end());
   return owners;
 }
 

@@ -14,13 +14,17 @@ struct CellRange {
   CellId size() const;
 };
 
+/// Along which axis ranks of a program follow each other: parts of OpenFOAM's `simple` along x, LIGGGHTS's
+/// along z. Where a solver cuts as the blocks are cut, a rank then owns what its own part is in.
+enum class RankOrder { x_fastest, z_fastest };
+
 /// Which rank of one program owns which bulk cell: blocks, as near to cubes as the numbers of cells allow,
-/// the first ranks one each, x fastest. Everything follows from the grid's cells and the number of ranks, so
+/// the first ranks one each. Everything follows from the grid's cells and the number of ranks, so
 /// that each of two programs knows the other's owners as well. Ranks for which there is no block own nothing.
 class BulkPartition {
  public:
   /// cells: of the grid, per direction, each >= 1. ranks: >= 1.
-  BulkPartition(const std::array<int, 3>& cells, int ranks);
+  BulkPartition(const std::array<int, 3>& cells, int ranks, RankOrder order = RankOrder::x_fastest);
 
   int ranks() const { return ranks_; }
   /// Number of blocks per direction, and of all: ranks 0 to owners() - 1 have one.
@@ -43,8 +47,10 @@ class BulkPartition {
   std::array<int, 3> ijk(CellId cell) const;
   std::array<int, 3> block_of(const std::array<int, 3>& ijk) const;
   CellRange range_of(const std::array<int, 3>& block) const;
+  int rank_of(const std::array<int, 3>& block) const;
 
   std::array<int, 3> cells_, blocks_;
+  std::array<int, 3> stride_;  // of ranks, from a block to the next one along each axis
   int ranks_;
 };
 

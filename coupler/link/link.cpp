@@ -22,6 +22,10 @@ constexpr int tag_rows = 1, tag_text = 2, tag_record = 3;
 constexpr std::size_t header_words = 2;  // of a message with rows: row width, number of cells
 constexpr std::uint64_t word = sizeof(std::uint64_t);
 
+RankOrder order_of(Side side) {
+  return side == Side::fluid ? RankOrder::x_fastest : RankOrder::z_fastest;
+}
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -30,8 +34,8 @@ double now() {
 
 Link::Link(const OwnWorld& world, const std::array<int, 3>& bulk_cells, double time_out_seconds)
     : world_(world),
-      mine_(bulk_cells, world.size()),
-      theirs_(bulk_cells, world.partner_size()),
+      mine_(bulk_cells, world.size(), order_of(world.side())),
+      theirs_(bulk_cells, world.partner_size(), order_of(partner_of(world.side()))),
       waiting_(world, time_out_seconds) {
   if (world.partner_size() == 0)
     throw InputError(

@@ -15,8 +15,9 @@ namespace demvof {
 
 namespace {
 
+/// Of dem_side, as in Link.
 BulkPartition owners_of(MPI_Comm world, const BulkGrid& grid) {
-  return {grid.cells(), vtk_file::size_of(world)};
+  return {grid.cells(), vtk_file::size_of(world), RankOrder::z_fastest};
 }
 
 std::string extent(const CellRange& cells) {

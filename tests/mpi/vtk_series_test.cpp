@@ -196,7 +196,7 @@ TEST(SurfaceSeries, TrianglesOfAllRanksReadBackAndOneFileServesWhileNoneMoves) {
 TEST(BulkSeries, CellsReadBackInTheirPlaces) {
   const fs::path out = folder("bulk_read_back");
   const BulkGrid grid({-0.1, 0, 0.5}, {0.3, 0.3, 0.7}, {4, 3, 2});
-  const BulkPartition partition(grid.cells(), ranks_);
+  const BulkPartition partition(grid.cells(), ranks_, RankOrder::z_fastest);
   const auto is_active = [](CellId cell) { return cell % 5 == 2; };  // no piece begins with one
   CellValues<BulkFrame> active;
   for (const CellId cell : partition.cells(rank_))

@@ -13,12 +13,23 @@ namespace {
 
 using Cells = std::array<int, 3>;
 
+constexpr RankOrder x = RankOrder::x_fastest, z = RankOrder::z_fastest;
 constexpr Cells grids[] = {{1, 1, 1}, {7, 1, 1}, {1, 1, 13}, {5, 1, 9}, {2, 3, 2}, {12, 12, 12}, {31, 7, 16}};
 
 TEST(BulkPartition, EveryCellHasOneOwnerAndAPlaceThere) {
   for (const Cells& grid : grids)
-    for (const int ranks : {1, 2, 3, 4, 5, 7, 8, 13, 16, 97, 100, 5000}) {
-      const BulkPartition partition(grid, ranks);
+    for (const auto& [ranks, order] : {std::pair{1, x},
+                                       {2, x},
+                                       {3, z},
+                                       {4, z},
+                                       {5, x},
+                                       {7, z},
+                                       {8, x},
+                                       {13, z},
+                                       {16, z},
+                                       {97, x},
+                                       {5000, z}}) {
+      const BulkPartition partition(grid, ranks, order);
       ASSERT_LE(partition.owners(), ranks);
       std::vector<CellId> all;
       for (int rank = 0; rank < ranks; ++rank) {
@@ -84,6 +95,15 @@ TEST(BulkPartition, BlocksAreNearlyEqualAndNearlyCubes) {
   EXPECT_LT(worst.surface, 1.6);
 }
 
+TEST(BulkPartition, RanksFollowEachOtherAsTheSolversDo) {
+  const BulkPartition fluid({8, 12, 16}, 24, x), particles({8, 12, 16}, 24, z);
+  ASSERT_EQ(fluid.blocks(), (Cells{2, 3, 4}));
+  EXPECT_EQ(fluid.place_among_blocks(1 + 2 * 2 + 3 * 6), (Cells{1, 2, 3}));
+  EXPECT_EQ(particles.place_among_blocks(3 + 2 * 4 + 1 * 12), (Cells{1, 2, 3}));
+  EXPECT_EQ(fluid.place_among_blocks(1), (Cells{1, 0, 0}));
+  EXPECT_EQ(particles.place_among_blocks(1), (Cells{0, 0, 1}));
+}
+
 TEST(BulkPartition, HoldsForGridsBeyond32Bits) {
   constexpr int most = std::numeric_limits<int>::max();
   for (const Cells& grid : {Cells{1 << 20, 1 << 20, 1 << 20}, {most, 1, 1}, {most, most, 1}, {1, 3, most}})
@@ -134,7 +154,7 @@ TEST(BulkPartition, OwnersWithinARangeAreThoseOfItsCells) {
   for (const int ranks : {1, 6, 11, 30})
     for (const CellRange& range :
          {CellRange{{0, 0, 0}, {9, 6, 11}}, {{2, 3, 4}, {3, 4, 5}}, {{1, 1, 1}, {7, 3, 9}}}) {
-      const BulkPartition partition(grid, ranks);
+      const BulkPartition partition(grid, ranks, z);
       std::vector<int> expected;
       for (int k = range.begin[2]; k < range.end[2]; ++k)
         for (int j = range.begin[1]; j < range.end[1]; ++j)

@@ -43,7 +43,7 @@ CellId shared(const CellRange& a, const CellRange& b) {
 void check(const std::array<int, 3>& grid, int here, int there) {
   SCOPED_TRACE(testing::Message() << grid[0] << " x " << grid[1] << " x " << grid[2] << " cells, " << here
                                   << " and " << there << " ranks");
-  const BulkPartition mine(grid, here), theirs(grid, there);
+  const BulkPartition mine(grid, here), theirs(grid, there, RankOrder::z_fastest);
   const Pairs pairs = seen_by(mine, theirs);
   EXPECT_EQ(pairs, turned(seen_by(theirs, mine)));
   CellId cells = 0;
