@@ -107,7 +107,7 @@ TEST(OwnWorld, UnannouncedEndsBecomeExceptions) {
 
 TEST(Link, ExchangesRandomActiveCells) {
   for (const std::array<int, 3> cells :
-       {std::array{1, 1, 1}, {3, 1, 1}, {1, 1, 7}, {10, 10, 10}, {9, 1, 20}}) {
+       {std::array{1, 1, 1}, {3, 1, 1}, {1, 1, 7}, {10, 10, 10}, {20, 1, 9}}) {
     Link link(world(), cells, time_out);
     const CellId count = link.mine().cell_count();
     for (int round = 0; round < 5; ++round) {
