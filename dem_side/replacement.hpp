@@ -8,6 +8,7 @@
 
 #include "coupler/exchange/crossing.hpp"
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/bulk_partition.hpp"
 #include "coupler/transfer/fluid_at_particle.hpp"
 #include "dem_side/dem.hpp"
 

@@ -121,7 +121,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     forces.take_out_own_wake(WakeWidth(grid, averaged), dem.census().max_diameter);
 
   run_stage().set("handshake");
-  ParticleEnd link(world, grid.cell_count(), coupling.time_out);
+  ParticleEnd link(world, grid.cells(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
   const auto weigh = [&] { averaging.weigh(positions(dem.particles()), whole_radii(dem.particles())); };
   weigh();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_side/gathered_state.hpp"
 
+#include <map>
 #include <string>
 
 namespace demvof {
@@ -12,17 +13,22 @@ bool is_cell_values(const json& value) {
   return value.is_object() && value.size() == 2 && value.contains("cells") && value.contains("values");
 }
 
-/// Ranks own bulk cells in ascending order, so the result is sorted like its parts.
-json owned_cells(const std::vector<const json*>& parts, CellId begin, CellId end) {
-  json cells = json::array(), values = json::array();
+using Owns = std::function<bool(CellId)>;
+
+json owned_cells(const std::vector<const json*>& parts, const Owns& owns) {
+  std::map<CellId, std::vector<json>> rows;
   for (const json* part : parts) {
-    const json &from = part->at("cells"), &rows = part->at("values");
-    const std::size_t width = from.empty() ? 0 : rows.size() / from.size();
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      if (from[i].get<CellId>() < begin || from[i].get<CellId>() >= end) continue;
-      cells.push_back(from[i]);
-      for (std::size_t entry = 0; entry < width; ++entry) values.push_back(rows.at(i * width + entry));
-    }
+    const json &cells = part->at("cells"), &values = part->at("values");
+    const std::size_t width = cells.empty() ? 0 : values.size() / cells.size();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (const auto cell = cells[i].get<CellId>(); owns(cell))
+        for (std::size_t entry = 0; entry < width; ++entry)
+          rows[cell].push_back(values.at(i * width + entry));
+  }
+  json cells = json::array(), values = json::array();
+  for (const auto& [cell, row] : rows) {
+    cells.push_back(cell);
+    for (const json& value : row) values.push_back(value);
   }
   return {{"cells", cells}, {"values", values}};
 }
@@ -45,9 +51,9 @@ json sum(const std::vector<const json*>& parts, double factor) {
 
 /// Values on bulk cells go to their owners, what else there is was the same on all ranks or is a sum over
 /// them.
-json on_bulk_cells(const std::vector<const json*>& parts, CellId begin, CellId end, bool first) {
+json on_bulk_cells(const std::vector<const json*>& parts, const Owns& owns, bool first) {
   const json& one = *parts[0];
-  if (is_cell_values(one)) return owned_cells(parts, begin, end);
+  if (is_cell_values(one)) return owned_cells(parts, owns);
   if (one.is_structured()) {
     json all = one;
     const auto inside = [&](const auto& key) {
@@ -56,11 +62,11 @@ json on_bulk_cells(const std::vector<const json*>& parts, CellId begin, CellId e
       return inner;
     };
     if (one.is_array()) {
-      for (std::size_t i = 0; i < one.size(); ++i) all[i] = on_bulk_cells(inside(i), begin, end, first);
+      for (std::size_t i = 0; i < one.size(); ++i) all[i] = on_bulk_cells(inside(i), owns, first);
       return all;
     }
     for (const auto& [key, value] : one.items()) {
-      all[key] = on_bulk_cells(inside(key), begin, end, first);
+      all[key] = on_bulk_cells(inside(key), owns, first);
       if (key != "on_its_way" && key != "turnover") continue;
       all[key] = sum(inside(key), first ? 1 : 0);
     }
@@ -69,8 +75,20 @@ json on_bulk_cells(const std::vector<const json*>& parts, CellId begin, CellId e
   return one;
 }
 
-/// Rows of fine cells go to where these cells are now.
-json on_fine_cells(const std::vector<json>& of_ranks, const std::vector<int>& fine_cells) {
+}  // namespace
+
+json gathered_state(const std::vector<json>& of_ranks, const Owns& owns, bool first) {
+  json all = of_ranks.at(0);
+  for (const char* key : {"exchange", "surface", "openings"}) {
+    if (!all.contains(key)) continue;
+    std::vector<const json*> parts;
+    for (const json& part : of_ranks) parts.push_back(&part.at(key));
+    all[key] = on_bulk_cells(parts, owns, first);
+  }
+  return all;
+}
+
+json gathered_flow(const std::vector<json>& of_ranks, const std::vector<int>& fine_cells) {
   std::size_t total = 0;
   for (const json& part : of_ranks) total += part.at("flow").at("cells").get<std::size_t>();
   json here = of_ranks[0].at("flow");
@@ -95,21 +113,6 @@ json on_fine_cells(const std::vector<json>& of_ranks, const std::vector<int>& fi
     here[key] = mine;
   }
   return here;
-}
-
-}  // namespace
-
-json gathered_state(const std::vector<json>& of_ranks, CellId begin, CellId end, bool first,
-                    const std::vector<int>& fine_cells) {
-  json all = of_ranks.at(0);
-  for (const char* key : {"exchange", "surface", "openings"}) {
-    if (!all.contains(key)) continue;
-    std::vector<const json*> parts;
-    for (const json& part : of_ranks) parts.push_back(&part.at(key));
-    all[key] = on_bulk_cells(parts, begin, end, first);
-  }
-  all["flow"] = on_fine_cells(of_ranks, fine_cells);
-  return all;
 }
 
 }  // namespace demvof

@@ -164,7 +164,7 @@ CellValues<double> find_shares(const BulkGrid& grid, const BulkPartition& partit
   int rank;
   check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
   std::size_t next = 0;
-  for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell) {
+  for (const CellId cell : partition.cells(rank)) {
     const bool known = next < met.cells.size() && met.cells[next] == cell;
     const double share = known ? met.values[next++] / grid.cell_volume() : 0.0;
     if (share >= full) continue;

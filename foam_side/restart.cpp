@@ -265,6 +265,13 @@ void write_fluid_restart(const fs::path& run, long window, const Flow& flow, con
   write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
 }
 
+/// How many have written fluid.<rank>.
+int ranks_of(const RestartPoint& point) {
+  int ranks = 0;
+  while (point.files.count(fmt::format("restart/{}/fluid.{}", point.window, ranks))) ++ranks;
+  return ranks;
+}
+
 /// read(state); what is not as it was written is the user's to know.
 template <class Read>
 auto part_of(const json& state, const Read& read) {
@@ -323,41 +330,37 @@ void write_state(const fs::path& run, const CaseParameters& parameters, long win
 
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
                         const OwnWorld& world) {
-  const RestartPoint point = read_restart_point(
-      options.out, options.from, state_frame(parameters, world.size()), parameters.coupling.end_time);
+  const StateFrame now = state_frame(parameters, world.size());
+  const RestartPoint point = read_restart_point(options.out, options.from, now, parameters.coupling.end_time);
+  const bool own = ranks_of(point) == world.size() && point.frame.bulk_blocks == now.bulk_blocks;
   const std::string states = fmt::format("restart/{}/fluid.", point.window);
-  const auto ranks = std::count_if(point.files.begin(), point.files.end(),
-                                   [&](const auto& file) { return file.first.rfind(states, 0) == 0; });
-  const std::string own =
-      ranks == world.size() ? states + std::to_string(world.rank()) : states;  // else its part of all
   const std::string fields =
       world.size() > 1 ? fmt::format("fluid/processor{}/", world.rank()) : std::string("fluid/");
   require_whole(options.out, point, [&](const std::string& name) {
-    return name == own || (own == states && name.rfind(own, 0) == 0) || name.rfind(fields, 0) == 0 ||
-           (world.rank() == 0 && name == "history.csv");
+    return (own ? name == states + std::to_string(world.rank()) : name.rfind(states, 0) == 0) ||
+           name.rfind(fields, 0) == 0 || (world.rank() == 0 && name == "history.csv");
   });
   return point;
 }
 
 json read_fluid_restart(const fs::path& run, const RestartPoint& point, const Flow& flow,
                         const BulkPartition& mine, const OwnWorld& world) {
-  const auto file = [&](int rank) {
-    return restart_folder(run, point.window) / fmt::format("fluid.{}", rank);
-  };
-  int ranks = 0;  // that have written it
-  while (point.files.count(file(ranks).lexically_relative(run).generic_string())) ++ranks;
+  const int ranks = ranks_of(point);
   fs::path path;
   try {
     const auto read = [&](int rank) {
-      path = file(rank);
+      path = restart_folder(run, point.window) / fmt::format("fluid.{}", rank);
       std::ifstream stream(path, std::ios::binary);
       return json::from_cbor(stream);
     };
-    if (ranks == world.size()) return read(world.rank());
+    if (ranks == world.size() && point.frame.bulk_blocks == mine.blocks()) return read(world.rank());
     std::vector<json> all;
     for (int rank = 0; rank < ranks; ++rank) all.push_back(read(rank));
-    return gathered_state(all, mine.begin(world.rank()), mine.end(world.rank()), world.rank() == 0,
-                          cell_numbers(flow));
+    json state = gathered_state(
+        all, [&](CellId cell) { return mine.owner(cell) == world.rank(); }, world.rank() == 0);
+    state["flow"] = ranks == world.size() ? all.at(static_cast<std::size_t>(world.rank())).at("flow")
+                                          : gathered_flow(all, cell_numbers(flow));
+    return state;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("--continue: {}: {}", path.string(), error.what()));
   }

@@ -32,8 +32,8 @@ void write_state(const std::filesystem::path& run, const CaseParameters& paramet
 RestartPoint open_state(const ProgramOptions& options, const CaseParameters& parameters,
                         const OwnWorld& world);
 
-/// What the time folder does not hold, of this rank; of states that another number of ranks has left, its
-/// part of all. Throws InputError when a file is not what was written.
+/// What the time folder does not hold, of this rank; of states that another number of ranks has left, or
+/// owners of other bulk cells, its part of all. Throws InputError when a file is not what was written.
 nlohmann::json read_fluid_restart(const std::filesystem::path& run, const RestartPoint& point,
                                   const Flow& flow, const BulkPartition& mine, const OwnWorld& world);
 

@@ -268,7 +268,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     run_stage().set("handshake");
     const BulkGridParameters& box = *parameters.bulk_grid;
     grid.emplace(box.lower, box.upper, box.cells);
-    link.emplace(world, grid->cell_count(), parameters.coupling.time_out);
+    link.emplace(world, grid->cells(), parameters.coupling.time_out);
     particles = json::parse(
         link->handshake(handshake_items(version(), configuration_hash(parameters), case_gravity(args),
                                         options.out, start ? start->checksum : "no", parameters.gravity),

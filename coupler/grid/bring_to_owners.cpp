@@ -8,26 +8,25 @@
 
 namespace demvof {
 
-CellValues<std::vector<double>> bring_rows(MPI_Comm world, const std::function<int(CellId)>& rank_of,
+CellValues<std::vector<double>> bring_rows(MPI_Comm world, const BulkPartition& partition,
                                            const std::vector<CellId>& cells, const double* rows, int width) {
   const int words = 1 + width;  // cell number (exact in a double), row
-  std::vector<std::size_t> order(cells.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return cells[a] < cells[b]; });
-
+  const RowsByRank by_owner =
+      rows_by_rank(cells.size(), [&](std::size_t i) { return partition.owner(cells[i]); });
   std::vector<Parcel> parcels;
-  for (const std::size_t i : order) {
-    const int rank = rank_of(cells[i]);
-    if (parcels.empty() || parcels.back().rank != rank) parcels.push_back({rank, {}});
-    std::vector<double>& out = parcels.back().numbers;
-    out.push_back(static_cast<double>(cells[i]));
-    out.insert(out.end(), rows + i * width, rows + (i + 1) * width);
+  for (const RowsOfRank& owners : by_owner.of_rank) {
+    std::vector<double>& out = parcels.emplace_back(Parcel{owners.rank, {}}).numbers;
+    for (std::size_t at = owners.first; at < owners.first + owners.count; ++at) {
+      const std::size_t i = by_owner.rows[at];
+      out.push_back(static_cast<double>(cells[i]));
+      out.insert(out.end(), rows + i * width, rows + (i + 1) * width);
+    }
   }
   std::vector<double> in;
   for (const Parcel& parcel : exchange_with_unknown(world, std::move(parcels)))
     in.insert(in.end(), parcel.numbers.begin(), parcel.numbers.end());
 
-  order.resize(in.size() / words);
+  std::vector<std::size_t> order(in.size() / words);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return in[a * words] < in[b * words]; });
   CellValues<std::vector<double>> brought;

@@ -65,9 +65,4 @@ CellId BulkGrid::neighbour(const std::array<int, 3>& ijk, int axis, int step) co
   return id(moved);
 }
 
-int BulkPartition::owner(CellId cell) const {
-  // The last rank whose block begins at or before the cell: floor(count rank / ranks) < cell + 1.
-  return static_cast<int>((ranks_ * (cell + 1) - 1) / cell_count_);
-}
-
 }  // namespace demvof

@@ -48,21 +48,4 @@ class BulkGrid {
   std::array<bool, 3> periodic_;
 };
 
-/// Which rank of one program owns which bulk cell: contiguous blocks of cell numbers,
-/// so that the way between two programs follows from two rank counts alone.
-class BulkPartition {
- public:
-  BulkPartition(CellId cell_count, int ranks) : cell_count_(cell_count), ranks_(ranks) {}
-  int ranks() const { return ranks_; }
-  CellId cell_count() const { return cell_count_; }
-  /// First cell of a rank; begin(ranks()) is the cell count.
-  CellId begin(int rank) const { return cell_count_ * rank / ranks_; }
-  CellId end(int rank) const { return begin(rank + 1); }
-  int owner(CellId cell) const;
-
- private:
-  CellId cell_count_;
-  int ranks_;
-};
-
 }  // namespace demvof

@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace demvof {
@@ -29,6 +30,29 @@ struct RowsOfRank {
   int rank;
   std::size_t first, count;  // rows
 };
+
+/// Rows that belong to ranks, sorted by rank; those of one rank stay in their order.
+struct RowsByRank {
+  std::vector<std::size_t> rows;    // their numbers
+  std::vector<RowsOfRank> of_rank;  // of that list
+};
+/// rank_of(i): of row i < count.
+template <class Rank>
+RowsByRank rows_by_rank(std::size_t count, const Rank& rank_of) {
+  std::map<int, std::vector<std::size_t>> rows;
+  auto last = rows.end();  // neighbours in the list mostly go to one rank
+  for (std::size_t i = 0; i < count; ++i) {
+    const int rank = rank_of(i);
+    if (last == rows.end() || last->first != rank) last = rows.try_emplace(rank).first;
+    last->second.push_back(i);
+  }
+  RowsByRank sorted;
+  for (const auto& [rank, of_rank] : rows) {
+    sorted.of_rank.push_back({rank, sorted.rows.size(), of_rank.size()});
+    sorted.rows.insert(sorted.rows.end(), of_rank.begin(), of_rank.end());
+  }
+  return sorted;
+}
 
 /// Sends rows of width numbers to ranks that know, from their own list, how many come. out and in: the whole
 /// lists; each rank stands in `to` and in `from` at most once.

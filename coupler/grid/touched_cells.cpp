@@ -15,14 +15,12 @@ TouchedCells::TouchedCells(MPI_Comm world, const BulkPartition& partition, std::
   if (ranks != partition.ranks())
     throw std::invalid_argument("TouchedCells: the partition is of other ranks");
 
-  // Owners hold contiguous blocks of cells, so sorted cells are sorted by owner.
+  by_owner_ = rows_by_rank(cells_.size(), [&](std::size_t i) { return partition.owner(cells_[i]); });
   std::vector<Parcel> parcels;
-  for (std::size_t first = 0; first < cells_.size(); first += to_owners_.back().count) {
-    const int owner = partition.owner(cells_[first]);
-    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = std::lower_bound(begin, cells_.end(), partition.end(owner));
-    to_owners_.push_back({owner, first, static_cast<std::size_t>(end - begin)});
-    parcels.push_back({owner, std::vector<double>(begin, end)});  // cell numbers are exact in a double
+  for (const RowsOfRank& owners : by_owner_.of_rank) {
+    std::vector<double>& numbers = parcels.emplace_back(Parcel{owners.rank, {}}).numbers;
+    for (std::size_t at = owners.first; at < owners.first + owners.count; ++at)
+      numbers.push_back(static_cast<double>(cells_[by_owner_.rows[at]]));  // exact in a double
   }
   std::vector<CellId> touched;
   for (const Parcel& parcel : exchange_with_unknown(world_, std::move(parcels))) {
@@ -38,8 +36,11 @@ TouchedCells::TouchedCells(MPI_Comm world, const BulkPartition& partition, std::
 }
 
 std::vector<double> TouchedCells::sum_rows(const double* rows, int width) const {
-  std::vector<double> received(slot_.size() * width);
-  exchange_with_known(world_, to_owners_, rows, from_touchers_, received.data(), width);
+  std::vector<double> sent, received(slot_.size() * width);
+  sent.reserve(cells_.size() * width);
+  for (const std::size_t row : by_owner_.rows)
+    sent.insert(sent.end(), rows + row * width, rows + (row + 1) * width);
+  exchange_with_known(world_, by_owner_.of_rank, sent.data(), from_touchers_, received.data(), width);
   std::vector<double> sums(owned_.size() * width, 0.0);
   for (std::size_t i = 0; i < slot_.size(); ++i)  // by rank
     for (int k = 0; k < width; ++k) sums[slot_[i] * width + k] += received[i * width + k];
@@ -59,8 +60,10 @@ std::vector<double> TouchedCells::fetch_rows(const std::vector<CellId>& owned, c
   answers.reserve(slot_.size() * width);
   for (const std::size_t slot : slot_) answers.insert(answers.end(), row_of[slot], row_of[slot] + width);
 
-  std::vector<double> fetched(cells_.size() * width);
-  exchange_with_known(world_, from_touchers_, answers.data(), to_owners_, fetched.data(), width);
+  std::vector<double> received(cells_.size() * width), fetched(received.size());
+  exchange_with_known(world_, from_touchers_, answers.data(), by_owner_.of_rank, received.data(), width);
+  for (std::size_t at = 0; at < by_owner_.rows.size(); ++at)
+    std::copy_n(&received[at * width], width, &fetched[by_owner_.rows[at] * width]);
   return fetched;
 }
 

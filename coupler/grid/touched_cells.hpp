@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupler/grid/bulk_cells.hpp"
+#include "coupler/grid/bulk_partition.hpp"
 #include "coupler/grid/sparse_exchange.hpp"
 
 namespace demvof {
@@ -57,7 +58,7 @@ class TouchedCells {
 
   MPI_Comm world_;
   std::vector<CellId> cells_;
-  std::vector<RowsOfRank> to_owners_;      // the touched cells of this rank by owner
+  RowsByRank by_owner_;                    // the touched cells of this rank
   std::vector<RowsOfRank> from_touchers_;  // the cells of this rank as owner, by the rank that touches them
   std::vector<CellId> owned_;              // the union of those
   std::vector<std::size_t> slot_;          // of each of those in owned_

@@ -10,6 +10,7 @@
 
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
+#include "coupler/grid/sparse_exchange.hpp"
 #include "coupler/link/run_stage.hpp"
 #include "coupler/link/signals.hpp"
 #include "coupler/link/text_message.hpp"
@@ -21,16 +22,20 @@ constexpr int tag_rows = 1, tag_text = 2, tag_record = 3;
 constexpr std::size_t header_words = 2;  // of a message with rows: row width, number of cells
 constexpr std::uint64_t word = sizeof(std::uint64_t);
 
+RankOrder order_of(Side side) {
+  return side == Side::fluid ? RankOrder::x_fastest : RankOrder::z_fastest;
+}
+
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
-Link::Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
+Link::Link(const OwnWorld& world, const std::array<int, 3>& bulk_cells, double time_out_seconds)
     : world_(world),
-      mine_(bulk_cells, world.size()),
-      theirs_(bulk_cells, world.partner_size()),
+      mine_(bulk_cells, world.size(), order_of(world.side())),
+      theirs_(bulk_cells, world.partner_size(), order_of(partner_of(world.side()))),
       waiting_(world, time_out_seconds) {
   if (world.partner_size() == 0)
     throw InputError(
@@ -106,45 +111,51 @@ void Link::finish_sends() {
 }
 
 void Link::send_rows(const std::vector<CellId>& cells, const double* rows, int width) {
-  if (!cells.empty() &&
-      (cells.front() < mine_.begin(world_.rank()) || cells.back() >= mine_.end(world_.rank())))
-    throw std::logic_error("Link::send: a bulk cell of another rank");
+  for (const CellId cell : cells)
+    if (mine_.owner(cell) != world_.rank()) throw std::logic_error("Link::send: a bulk cell of another rank");
   finish_sends();
   const double begin = now();
-  for (const Counterpart& other : counterparts_) {
-    const auto first = std::lower_bound(cells.begin(), cells.end(), other.begin);
-    const auto count = static_cast<std::size_t>(std::lower_bound(first, cells.end(), other.end) - first);
-    Words message(header_words + count * (1 + width));
+  const RowsByRank by_rank =
+      rows_by_rank(cells.size(), [&](std::size_t i) { return theirs_.owner(cells[i]); });
+  auto next = by_rank.of_rank.begin();
+  for (const int other : counterparts_) {
+    RowsOfRank part{other, 0, 0};
+    if (next != by_rank.of_rank.end() && next->rank == other) part = *next++;
+    Words message(header_words + part.count * (1 + width));
     message[0] = width;
-    message[1] = count;
-    if (count > 0) {
-      std::memcpy(&message[header_words], &*first, word * count);
-      std::memcpy(&message[header_words + count], rows + width * (first - cells.begin()),
-                  word * count * width);
+    message[1] = part.count;
+    for (std::size_t i = 0; i < part.count; ++i) {
+      const std::size_t row = by_rank.rows[part.first + i];
+      std::memcpy(&message[header_words + i], &cells[row], word);
+      std::memcpy(&message[header_words + part.count + i * width], rows + row * width, word * width);
     }
     statistics_.bytes_sent += static_cast<std::int64_t>(word * message.size());
-    statistics_.cells_sent += static_cast<std::int64_t>(count);
-    post(other.rank, tag_rows, std::move(message));
+    statistics_.cells_sent += static_cast<std::int64_t>(part.count);
+    post(other, tag_rows, std::move(message));
   }
   statistics_.exchange_seconds += now() - begin;
 }
 
 void Link::receive_rows(std::vector<CellId>& cells, std::vector<double>& rows, int width) {
   const double begin = now(), waited_before = statistics_.waiting_seconds;
-  for (const Counterpart& other : counterparts_) {  // in the order of cells
-    const Words message = take(other.rank, tag_rows, "bulk cells");
+  std::vector<Words> messages;
+  std::vector<std::pair<CellId, const std::uint64_t*>> row_of;  // of each cell
+  for (const int other : counterparts_) {
+    const Words& message = messages.emplace_back(take(other, tag_rows, "bulk cells"));
     const std::size_t count = message.size() < header_words ? 0 : message[1];
     if (message.size() != header_words + count * (1 + width) ||
         message[0] != static_cast<std::uint64_t>(width))
       throw std::logic_error("Link::receive: the partner sent another kind of record");
-    const std::size_t before = cells.size();
-    cells.resize(before + count);
-    rows.resize((before + count) * width);
-    if (count > 0) {
-      std::memcpy(&cells[before], &message[header_words], word * count);
-      std::memcpy(&rows[before * width], &message[header_words + count], word * count * width);
-    }
+    const std::uint64_t* numbers = message.data() + header_words;
+    for (std::size_t i = 0; i < count; ++i)
+      row_of.emplace_back(static_cast<CellId>(numbers[i]), numbers + count + i * width);
     statistics_.bytes_received += static_cast<std::int64_t>(word * message.size());
+  }
+  std::sort(row_of.begin(), row_of.end());
+  rows.resize(row_of.size() * width);
+  for (const auto& [cell, row] : row_of) {
+    std::memcpy(&rows[cells.size() * width], row, word * width);
+    cells.push_back(cell);
   }
   statistics_.cells_received += static_cast<std::int64_t>(cells.size());
   statistics_.exchange_seconds += now() - begin - (statistics_.waiting_seconds - waited_before);

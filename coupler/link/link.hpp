@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <list>
@@ -42,7 +43,8 @@ enum class Continue : int { run = 0, stop_requested = 1, failed = 2 };
 class Link {
  public:
   /// Collective over both programs. Throws InputError when there is no partner.
-  Link(const OwnWorld& world, CellId bulk_cells, double time_out_seconds);
+  /// bulk_cells: of the grid, per direction.
+  Link(const OwnWorld& world, const std::array<int, 3>& bulk_cells, double time_out_seconds);
   ~Link();
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
@@ -127,7 +129,7 @@ class Link {
 
   const OwnWorld& world_;
   BulkPartition mine_, theirs_;
-  std::vector<Counterpart> counterparts_;
+  std::vector<int> counterparts_;
   Waiting waiting_;
   LinkStatistics statistics_;
   Continue agreement_ = Continue::run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ namespace demvof {
 /// over the program.
 class PairEnd {
  public:
-  PairEnd(const OwnWorld& world, CellId bulk_cells, double time_out_seconds)
+  PairEnd(const OwnWorld& world, const std::array<int, 3>& bulk_cells, double time_out_seconds)
       : link_(world, bulk_cells, time_out_seconds) {}
 
   /// This program's bulk cells.

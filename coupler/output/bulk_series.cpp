@@ -5,7 +5,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
-#include "coupler/grid/bring_to_owners.hpp"
+#include "coupler/grid/bulk_partition.hpp"
 #include "coupler/output/vtk_file.hpp"
 #include "coupler/output/vtk_series.hpp"
 
@@ -15,32 +15,30 @@ namespace demvof {
 
 namespace {
 
-/// Layers of cells across z, by the rank that writes them; a rank may have none.
-BulkPartition layers_of(MPI_Comm world, const BulkGrid& grid) {
-  return {grid.cells()[2], vtk_file::size_of(world)};
+/// Of dem_side, as in Link.
+BulkPartition owners_of(MPI_Comm world, const BulkGrid& grid) {
+  return {grid.cells(), vtk_file::size_of(world), RankOrder::z_fastest};
 }
 
-CellId cells_in_layer(const BulkGrid& grid) {
-  return CellId{grid.cells()[0]} * grid.cells()[1];
+std::string extent(const CellRange& cells) {
+  const auto &begin = cells.begin, &end = cells.end;
+  return fmt::format("\"{} {} {} {} {} {}\"", begin[0], end[0], begin[1], end[1], begin[2], end[2]);
 }
 
-std::string extent(const BulkGrid& grid, CellId first, CellId last) {
-  return fmt::format("\"0 {} 0 {} {} {}\"", grid.cells()[0], grid.cells()[1], first, last);
-}
-
-/// A piece of the grid: the layers from first to before last.
-void write_layers(const fs::path& path, const BulkGrid& grid, CellId first, CellId last,
-                  const CellValues<BulkFrame>& active) {
-  const CellId begin = first * cells_in_layer(grid);
-  const auto cells = static_cast<std::size_t>((last - first) * cells_in_layer(grid));
+/// The piece of the grid that a rank owns.
+void write_block(const fs::path& path, const BulkGrid& grid, const BulkPartition& owners, int rank,
+                 const CellValues<BulkFrame>& active) {
+  const CellRange block = owners.block(rank);
+  const auto cells = static_cast<std::size_t>(block.size());
   std::vector<BulkFrame> frames(cells);
   vtkNew<vtkUnsignedCharArray> is_active;
   is_active->SetName("active");
   is_active->SetNumberOfTuples(static_cast<vtkIdType>(cells));
   is_active->FillValue(0);
   for (std::size_t i = 0; i < active.cells.size(); ++i) {
-    frames[static_cast<std::size_t>(active.cells[i] - begin)] = active.values[i];
-    is_active->SetValue(active.cells[i] - begin, 1);
+    const CellId place = owners.place(active.cells[i]);
+    frames[static_cast<std::size_t>(place)] = active.values[i];
+    is_active->SetValue(place, 1);
   }
   std::vector<double> void_fraction(cells);
   std::vector<Vec3> velocity(cells), gradient(cells), drag(cells);
@@ -51,7 +49,7 @@ void write_layers(const fs::path& path, const BulkGrid& grid, CellId first, Cell
     drag[c] = frames[c].drag;
   }
   vtkNew<vtkImageData> image;
-  image->SetExtent(0, grid.cells()[0], 0, grid.cells()[1], static_cast<int>(first), static_cast<int>(last));
+  image->SetExtent(block.begin[0], block.end[0], block.begin[1], block.end[1], block.begin[2], block.end[2]);
   image->SetOrigin(grid.lower().x, grid.lower().y, grid.lower().z);
   image->SetSpacing(grid.spacing().x, grid.spacing().y, grid.spacing().z);
   image->GetCellData()->AddArray(is_active);
@@ -68,19 +66,17 @@ void write_index(const fs::path& path, const BulkGrid& grid, MPI_Comm world, con
   for (const char* name : {"fluid_velocity", "pressure_gradient", "drag"})
     arrays += vtk_file::declared_array(name, 3);
   arrays += "</PCellData>\n";
-  const BulkPartition layers = layers_of(world, grid);
+  const BulkPartition owners = owners_of(world, grid);
   std::vector<std::string> pieces;
-  for (int rank = 0; rank < layers.ranks(); ++rank)
-    if (layers.begin(rank) < layers.end(rank))
-      pieces.push_back(fmt::format("Extent={} Source=\"{}\"",
-                                   extent(grid, layers.begin(rank), layers.end(rank)),
-                                   vtk_file::piece_name(world, stem, "vti", rank)));
+  for (int rank = 0; rank < owners.owners(); ++rank)
+    pieces.push_back(fmt::format("Extent={} Source=\"{}\"", extent(owners.block(rank)),
+                                 vtk_file::piece_name(world, stem, "vti", rank)));
   const Vec3 &origin = grid.lower(), &spacing = grid.spacing();
-  vtk_file::write_pieces(path, "PImageData",
-                         fmt::format(" WholeExtent={} Origin=\"{} {} {}\" Spacing=\"{} {} {}\"",
-                                     extent(grid, 0, grid.cells()[2]), origin.x, origin.y, origin.z,
-                                     spacing.x, spacing.y, spacing.z),
-                         arrays, pieces);
+  vtk_file::write_pieces(
+      path, "PImageData",
+      fmt::format(" WholeExtent={} Origin=\"{} {} {}\" Spacing=\"{} {} {}\"", extent({{}, grid.cells()}),
+                  origin.x, origin.y, origin.z, spacing.x, spacing.y, spacing.z),
+      arrays, pieces);
 }
 
 }  // namespace
@@ -91,19 +87,16 @@ BulkSeries::BulkSeries(MPI_Comm world, BulkGrid grid, const fs::path& folder,
 
 void BulkSeries::write(double time, const CellValues<BulkFrame>& active) {
   const std::string stem = fmt::format("{}_{:06}", name_, count_++);
-  const BulkPartition layers = layers_of(world_, grid_);
-  const CellValues<BulkFrame> mine = bring_to(
-      world_, [&](CellId cell) { return layers.owner(cell / cells_in_layer(grid_)); }, active);
+  const BulkPartition owners = owners_of(world_, grid_);
   vtk_file::on_all_ranks(world_, folder_, [&] {
     const int rank = vtk_file::rank_of(world_);
-    if (layers.begin(rank) < layers.end(rank))
-      write_layers(folder_ / vtk_file::piece_name(world_, stem, "vti", rank), grid_, layers.begin(rank),
-                   layers.end(rank), mine);
+    if (rank < owners.owners())
+      write_block(folder_ / vtk_file::piece_name(world_, stem, "vti", rank), grid_, owners, rank, active);
   });
   vtk_file::on_all_ranks(world_, folder_, [&] {
     if (vtk_file::rank_of(world_) != 0) return;
     std::string whole = stem + ".vti";
-    if (layers.ranks() > 1) {
+    if (owners.ranks() > 1) {
       whole = stem + ".pvti";
       write_index(folder_ / whole, grid_, world_, stem);
     }

@@ -48,6 +48,7 @@ std::string text_of(const RestartPoint& point) {
                {"bulk_upper", corner(point.frame.bulk_upper)},
                {"bulk_cells", point.frame.bulk_cells},
                {"fluid_ranks", point.frame.fluid_ranks},
+               {"bulk_blocks", point.frame.bulk_blocks},
                {"configuration", Json::parse(point.configuration)},
                {"files", Json::parse(to_text(point.files))}};
   text["checksum"] = Checksum().add(text.dump()).text();
@@ -75,6 +76,7 @@ RestartPoint read(const fs::path& path) {
     point.frame.bulk_upper = vec3(text.at("bulk_upper"));
     text.at("bulk_cells").get_to(point.frame.bulk_cells);
     text.at("fluid_ranks").get_to(point.frame.fluid_ranks);
+    point.frame.bulk_blocks = text.value("bulk_blocks", std::array<int, 3>{});
     point.configuration = text.at("configuration").dump();
     point.files = state_files(text.at("files").dump());
     return point;

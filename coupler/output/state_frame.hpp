@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coupler/config/parameters.hpp"
+#include "coupler/grid/bulk_partition.hpp"
 #include "coupler/output/restart_point.hpp"
 
 namespace demvof {
@@ -15,6 +16,7 @@ inline StateFrame state_frame(const CaseParameters& parameters, int fluid_ranks)
   frame.bulk_lower = parameters.bulk_grid->lower;
   frame.bulk_upper = parameters.bulk_grid->upper;
   frame.bulk_cells = parameters.bulk_grid->cells;
+  if (fluid_ranks > 0) frame.bulk_blocks = BulkPartition(frame.bulk_cells, fluid_ranks).blocks();
   return frame;
 }
 

@@ -98,7 +98,7 @@ struct BulkFrame {
   Vec3 drag;                 // force of the particles on the fluid per volume, N/m3
 };
 
-/// bulk/: the bulk grid as .vti with cell data, on several ranks in layers across z, with a .pvti over them;
+/// bulk/: the bulk grid as .vti with cell data, on several ranks each owner's block, with a .pvti over them;
 /// cells that the run does not average are marked by active = 0 and carry the defaults of BulkFrame.
 class BulkSeries : VtkSeries {
  public:

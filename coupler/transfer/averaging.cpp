@@ -113,7 +113,7 @@ void Averaging::set_shares() {
   check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
   std::array<CellValues<double>, 2> share;
   std::size_t open = 0, liquid = 0;
-  for (CellId cell = partition_.begin(rank); cell < partition_.end(rank); ++cell) {
+  for (const CellId cell : partition_.cells(rank)) {
     const bool partly = open < open_share_.cells.size() && open_share_.cells[open] == cell;
     const bool wet = liquid < surface_.cells.size() && surface_.cells[liquid] == cell;
     const double whole = partly ? open_share_.values[open++] : 1;

@@ -2,7 +2,6 @@
 #include "coupler/transfer/cell_neighbourhood.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "coupler/base/mpi_check.hpp"
 
@@ -12,9 +11,7 @@ namespace {
 std::vector<CellId> cells_of_this_rank(MPI_Comm world, const BulkPartition& partition) {
   int rank;
   check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
-  std::vector<CellId> cells(partition.end(rank) - partition.begin(rank));
-  std::iota(cells.begin(), cells.end(), partition.begin(rank));
-  return cells;
+  return partition.cells(rank);
 }
 
 CellId beside_face(const BulkGrid& grid, CellId cell, int face) {
@@ -35,7 +32,9 @@ std::vector<CellId> cells_around(const BulkGrid& grid, const std::vector<CellId>
 
 CellNeighbourhood::CellNeighbourhood(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                                      const CellValues<BulkWalls>& walls)
-    : own_(cells_of_this_rank(world, partition)), touched_(world, partition, cells_around(grid, own_)) {
+    : partition_(partition),
+      own_(cells_of_this_rank(world, partition)),
+      touched_(world, partition, cells_around(grid, own_)) {
   const std::vector<BulkWalls> beside_walls = touched_.fetch_from_owners(walls, BulkWalls{});
   const auto slot = [this](CellId cell) {
     const std::vector<CellId>& cells = touched_.cells();

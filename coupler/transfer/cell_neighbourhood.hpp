@@ -22,6 +22,8 @@ class CellNeighbourhood {
                     const CellValues<BulkWalls>& walls);
 
   const std::vector<CellId>& cells() const { return own_; }
+  /// Of one of them, in this list.
+  std::size_t place(CellId cell) const { return static_cast<std::size_t>(partition_.place(cell)); }
   /// Slots of the face neighbours (-x, +x, -y, ...) of each of them, -1 beyond a wall or the grid's end.
   using Beside = std::array<int, 6>;
   const std::vector<Beside>& beside() const { return beside_; }
@@ -32,6 +34,7 @@ class CellNeighbourhood {
   }
 
  private:
+  BulkPartition partition_;
   std::vector<CellId> own_;
   TouchedCells touched_;
   std::vector<Beside> beside_;

@@ -52,25 +52,25 @@ void RowDiffusion::step(double* row, int width) const {
 }
 
 Diffusion::Diffusion(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition, double bandwidth)
-    : world_(world) {
-  int rank, ranks;
+    : world_(world), partition_(partition) {
+  int rank;
   check_mpi(MPI_Comm_rank(world, &rank), "MPI_Comm_rank");
-  check_mpi(MPI_Comm_size(world, &ranks), "MPI_Comm_size");
-  begin_ = partition.begin(rank);
-  end_ = partition.end(rank);
+  const CellRange own = partition.block(rank);
   for (int axis = 0; axis < 3; ++axis) {
     const int n = grid.cells()[axis];
     if (n == 1) continue;  // nowhere to go
     const double strength =
         0.25 * std::pow(bandwidth / grid.spacing()[axis], 2) / diffusion_steps;  // tau / (n h^2)
-    // Lines numbered by their first cells: those of x and y are then mostly this rank's own.
+    // Owners of the blocks in a row share the lines through it.
+    const CellId share = partition.place_among_blocks(rank)[axis], of = partition.blocks()[axis];
     const int along[2] = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2};
-    const CellId across = grid.cells()[along[0]], lines = across * grid.cells()[along[1]];
+    const CellId across = own.end[along[0]] - own.begin[along[0]],
+                 lines = across * (own.end[along[1]] - own.begin[along[1]]);
     std::vector<CellId> cells;
-    for (CellId line = lines * rank / ranks; line < lines * (rank + 1) / ranks; ++line) {
+    for (CellId line = lines * share / of; line < lines * (share + 1) / of; ++line) {
       std::array<int, 3> ijk{};
-      ijk[along[0]] = static_cast<int>(line % across);
-      ijk[along[1]] = static_cast<int>(line / across);
+      ijk[along[0]] = own.begin[along[0]] + static_cast<int>(line % across);
+      ijk[along[1]] = own.begin[along[1]] + static_cast<int>(line / across);
       for (ijk[axis] = 0; ijk[axis] < n; ++ijk[axis]) cells.push_back(grid.id(ijk));
     }
     std::vector<CellId> sorted = cells;
@@ -104,10 +104,12 @@ void Diffusion::set_walls(const CellValues<BulkWalls>& walls) {
 }
 
 void Diffusion::set_open_shares(const CellValues<double>& share) {
-  CellValues<double> open;
-  for (CellId cell = begin_; cell < end_; ++cell) open.cells.push_back(cell);
+  int rank;
+  check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
+  CellValues<double> open{partition_.cells(rank), {}};
   open.values.assign(open.cells.size(), 1.0);
-  for (std::size_t i = 0; i < share.cells.size(); ++i) open.values[share.cells[i] - begin_] = share.values[i];
+  for (std::size_t i = 0; i < share.cells.size(); ++i)
+    open.values[partition_.place(share.cells[i])] = share.values[i];
   reached_ = diffused(open, false).values;
   open_ = std::move(open.values);
 }

@@ -111,15 +111,15 @@ class Diffusion {
   void scale(CellValues<T>& values, Factor&& factor) const {
     if (open_.empty()) return;
     for (std::size_t i = 0; i < values.cells.size(); ++i) {
-      const double by = factor(static_cast<std::size_t>(values.cells[i] - begin_));
+      const double by = factor(static_cast<std::size_t>(partition_.place(values.cells[i])));
       double* row = reinterpret_cast<double*>(&values.values[i]);
       for (int m = 0; m < row_width<T>(); ++m) row[m] *= by;
     }
   }
 
-  CellId begin_, end_;  // of this rank's cells
-  bool walls_ = false;  // on all ranks
   MPI_Comm world_;
+  BulkPartition partition_;
+  bool walls_ = false;  // on all ranks
   std::vector<Axis> axes_;
   std::vector<double> open_, reached_;  // a and G a of each cell of this rank; empty: all open
 };

@@ -113,7 +113,7 @@ Relocation::Round next_round(const CellNeighbourhood& around, const std::vector<
 std::vector<double> volumes(const CellNeighbourhood& around, const CellValues<BulkParticles>& owned) {
   std::vector<double> volume(around.cells().size());
   for (std::size_t i = 0; i < owned.cells.size(); ++i)
-    volume[owned.cells[i] - around.cells().front()] = owned.values[i].solid_volume;
+    volume[around.place(owned.cells[i])] = owned.values[i].solid_volume;
   return volume;
 }
 
@@ -138,7 +138,7 @@ LimitedSolid limit_solid(MPI_Comm world, const BulkGrid& grid, const BulkPartiti
   std::vector<double> volume = volumes(*around, owned);
   limit.assign(volume.size(), whole);
   for (std::size_t i = 0; i < open_share.cells.size(); ++i)
-    limit[open_share.cells[i] - around->cells().front()] *= open_share.values[i];
+    limit[around->place(open_share.cells[i])] *= open_share.values[i];
   excess = total_excess(world, volume, limit);
   if (excess.total > excess.room) return {{relief.cells, 0, excess.volume}, {}};
 

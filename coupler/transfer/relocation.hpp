@@ -79,11 +79,12 @@ class Relocation {
   };
   template <class T>
   Dense<T> dense(const CellValues<T>& owned) const {
-    const std::vector<CellId>& cells = around_->cells();
-    Dense<T> all{std::vector<T>(cells.size()), std::vector<char>(cells.size())};
+    const std::size_t cells = around_->cells().size();
+    Dense<T> all{std::vector<T>(cells), std::vector<char>(cells)};
     for (std::size_t i = 0; i < owned.cells.size(); ++i) {
-      all.values[owned.cells[i] - cells.front()] = owned.values[i];
-      all.known[owned.cells[i] - cells.front()] = true;
+      const std::size_t place = around_->place(owned.cells[i]);
+      all.values[place] = owned.values[i];
+      all.known[place] = true;
     }
     return all;
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // In front of the MPI library (LD_PRELOAD), counts what a program sends on communicators whose name begins
 // with "demvof"; solvers' own are left out. At its end each process writes
-//   {"program": ..., "tallies": {COMMUNICATOR: {FUNCTION: {"calls": n, "bytes": n, "receivers": n}}}}
-// into the folder DEMVOF_MESSAGE_COUNTS. bytes, receivers: of messages to one rank, 0 for collectives.
+//   {"program": ..., "tallies": {COMMUNICATOR: {FUNCTION: {"calls": n, "bytes": n, "receivers": [...]}}}}
+// into the folder DEMVOF_MESSAGE_COUNTS. bytes, receivers (ranks in the communicator): of messages to one
+// rank, none for collectives.
 #include <dlfcn.h>
 #include <mpi.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -37,8 +39,11 @@ class Tallies {
       const char* following = "";
       for (const auto& [function, tally] : functions) {
         file << following << "\"" << function << "\": {\"calls\": " << tally.calls
-             << ", \"bytes\": " << tally.bytes << ", \"receivers\": " << tally.receivers.size() << "}";
+             << ", \"bytes\": " << tally.bytes << ", \"receivers\": [";
         following = ", ";
+        const char* comma = "";
+        for (const int rank : tally.receivers) file << std::exchange(comma, ", ") << rank;
+        file << "]}";
       }
       file << "}";
     }

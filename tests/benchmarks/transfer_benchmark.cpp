@@ -63,7 +63,7 @@ BENCHMARK(sample_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMi
 
 /// What the diffusion kernel adds to a deposit, and again to a sample.
 void diffuse_rows(benchmark::State& state) {
-  const Diffusion diffusion(MPI_COMM_SELF, grid, BulkPartition(grid.cell_count(), 1), 6 * 2.7e-3);
+  const Diffusion diffusion(MPI_COMM_SELF, grid, BulkPartition(grid.cells(), 1), 6 * 2.7e-3);
   CellValues<BulkParticles> cells;
   for (CellId cell = 0; cell < 2400; ++cell) {  // the bed
     cells.cells.push_back(cell);
@@ -81,7 +81,7 @@ FineMesh mesh(const benchmark::State& state) {
   return test::fine_mesh(test::hexahedra(grid.lower(), grid.upper(), {20 * n, 10 * n, 30 * n}, map));
 }
 Remap remap(const FineMesh& mesh) {
-  return Remap(MPI_COMM_SELF, grid, BulkPartition(grid.cell_count(), 1), mesh, MappingParameters());
+  return Remap(MPI_COMM_SELF, grid, BulkPartition(grid.cells(), 1), mesh, MappingParameters());
 }
 
 void build_remap(benchmark::State& state) {

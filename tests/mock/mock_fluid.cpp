@@ -91,7 +91,7 @@ void write_bulk(const std::string& file, const CellValues<BulkParticles>& partic
 int play(const Options& options, OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file);
   const BulkGrid grid(parameters.bulk_grid->lower, parameters.bulk_grid->upper, parameters.bulk_grid->cells);
-  FluidEnd link(world, grid.cell_count(), parameters.coupling.time_out);
+  FluidEnd link(world, grid.cells(), parameters.coupling.time_out);
   const json facts = json::parse(link.handshake(
       handshake_items(version(), configuration_hash(parameters), {0, 0, -options.gravity}), "{}"));
   link.send_plan(plan_windows(parameters, Scene{}, facts.at("time_step")));

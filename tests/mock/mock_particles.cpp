@@ -42,15 +42,14 @@ class Bed {
       : options_(options), grid_(grid), comm_(comm) {
     int rank;
     check_mpi(MPI_Comm_rank(comm, &rank), "MPI_Comm_rank");
-    begin_ = partition.begin(rank);
-    end_ = partition.end(rank);
+    cells_ = partition.cells(rank);
   }
 
   /// Its rows at a time (s), at rest so far.
   CellValues<BulkParticles> at(double time) const {
     CellValues<BulkParticles> rows;
     const double rise = options_.velocity * time;
-    for (CellId cell = begin_; cell < end_; ++cell) {
+    for (const CellId cell : cells_) {
       const double low = grid_.cell_lower(grid_.ijk(cell)).z, high = low + grid_.spacing().z;
       const double inside = std::min(high, options_.bed[1] + rise) - std::max(low, options_.bed[0] + rise);
       if (inside <= 0) continue;
@@ -125,7 +124,7 @@ class Bed {
   const Options& options_;
   BulkGrid grid_;
   MPI_Comm comm_;
-  CellId begin_, end_;
+  std::vector<CellId> cells_;  // of this rank
 };
 
 std::string facts(const Options& options, double solid_volume, double step, const OwnWorld& world) {
@@ -150,7 +149,7 @@ int play(const Options& options, OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const BulkGridParameters& box = *parameters.bulk_grid;
   const BulkGrid grid(box.lower, box.upper, box.cells);
-  ParticleEnd link(world, grid.cell_count(), parameters.coupling.time_out);
+  ParticleEnd link(world, grid.cells(), parameters.coupling.time_out);
   const Bed bed(options, grid, link.mine(), world.comm());
   const std::vector<double>& g = options.gravity;
   CellValues<BulkParticles> rows = bed.at(0);

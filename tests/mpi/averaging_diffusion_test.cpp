@@ -14,7 +14,7 @@ TEST_F(AveragingKernels, DiffusionLeavesOutWhatTheMeshDoesNotFill) {
   int rank, ranks;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const BulkPartition partition(grid.cell_count(), ranks);
+  const BulkPartition partition(grid.cells(), ranks);
   Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 3);
   std::mt19937 random(7);
   std::uniform_real_distribution<> uniform(0, 1);
@@ -58,7 +58,7 @@ TEST_F(AveragingKernels, DiffusionStaysBehindWalls) {
   std::uniform_real_distribution<> uniform(0, 1);
   for (const bool periodic : {false, true}) {
     const BulkGrid grid({0, 0, 0}, {0.08, 0.05, 0.06}, {8, 5, 6}, {periodic, false, periodic});
-    const BulkPartition partition(grid.cell_count(), ranks);
+    const BulkPartition partition(grid.cells(), ranks);
     Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 0.03);
     CellValues<BulkWalls> walls;
     CellValues<double> given, field, side;

@@ -41,7 +41,7 @@ class Averager {
   Averager(MPI_Comm comm, const BulkGrid& grid, const AveragingParameters& parameters, const Set& all)
       : comm_(comm),
         grid_(grid),
-        partition_(grid.cell_count(), size()),
+        partition_(grid.cells(), size()),
         particles_(static_cast<int>(all.position.size())),
         averaging_(comm, grid, partition_, parameters) {
     std::vector<BulkParticles> contributions;
@@ -78,7 +78,7 @@ class Averager {
   std::vector<double> sampled(const std::vector<double>& cells, const Put& put, const Get& get) {
     CellValues<BulkFluid> fluid;
     CellValues<BulkFluidGradients> gradients;
-    for (CellId cell = partition_.begin(rank()); cell < partition_.end(rank()); ++cell) {
+    for (const CellId cell : partition_.cells(rank())) {
       fluid.cells.push_back(cell);
       fluid.values.emplace_back();
       fluid.values.back().density = 1;

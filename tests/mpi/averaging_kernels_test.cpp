@@ -345,7 +345,7 @@ TEST_F(AveragingKernels, FullCellsShareWhatTheyBringAndAreTold) {
   int ranks;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const BulkGrid grid({0, 0, 0}, {3, 3, 3}, {3, 3, 3});
-  const BulkPartition partition(grid.cell_count(), ranks);
+  const BulkPartition partition(grid.cells(), ranks);
   AveragingParameters parameters = averaging(Kernel::centre, 0);
   parameters.maximum_solid_fraction = 0.5;
   int rank;

@@ -25,11 +25,12 @@ CellValues<Mark> marks_of(int rank, CellId count) {
 
 TEST(BringToOwners, BringsEveryRecordOnceInTheOrderOfRanks) {
   const int ranks = world().size(), me = world().rank();
-  for (const CellId count : {1, 2, 100}) {
-    const BulkPartition partition(count, ranks);
+  for (const std::array<int, 3> grid : {std::array{1, 1, 1}, {2, 1, 1}, {4, 5, 5}}) {
+    const BulkPartition partition(grid, ranks);
+    const CellId count = partition.cell_count();
     const auto brought = bring_to_owners(world().comm(), partition, marks_of(me, count));
     CellValues<Mark> expected;
-    for (CellId cell = partition.begin(me); cell < partition.end(me); ++cell)
+    for (const CellId cell : partition.cells(me))
       for (int rank = 0; rank < ranks; ++rank) {
         const CellValues<Mark> theirs = marks_of(rank, count);
         for (std::size_t i = 0; i < theirs.cells.size(); ++i)

@@ -65,7 +65,7 @@ int act(const std::string& role, OwnWorld& world) {
   std::ofstream("pid." + id) << getpid() << std::endl;
   if (role == "bad_input") throw InputError("case.yaml:7: coupling.window = -1: must be positive");
 
-  Link link(world, 100, role == "impatient" ? 1.0 : 60.0);
+  Link link(world, {4, 5, 5}, role == "impatient" ? 1.0 : 60.0);
   link.swap_text("");
   if (role == "disagree")
     link.handshake({{"coupling.window", world.side() == Side::fluid ? "1e-4" : "2e-4", 1e-9}}, "");

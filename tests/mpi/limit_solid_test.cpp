@@ -25,7 +25,7 @@ void expect_transpose(MPI_Comm comm, const BulkGrid& grid, const BulkPartition& 
   };
   CellValues<Pair> x, q;
   CellValues<double> uniform;
-  for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell) {
+  for (const CellId cell : partition.cells(rank)) {
     const double number = static_cast<double>(cell);
     if (cell % 3 != 0) x.cells.push_back(cell), x.values.push_back({std::sin(number), std::cos(3 * number)});
     if (cell % 5 != 0) q.cells.push_back(cell), q.values.push_back({std::cos(number), std::sin(7 * number)});
@@ -57,7 +57,7 @@ Outcome limited(MPI_Comm comm, const BulkGrid& grid, double fraction, const Volu
   int rank, ranks;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
-  const BulkPartition partition(grid.cell_count(), ranks);
+  const BulkPartition partition(grid.cells(), ranks);
   CellValues<BulkParticles> owned;
   for (const auto& [cell, volume] : before)
     if (partition.owner(cell) == rank) {

@@ -54,7 +54,7 @@ CellValues<BulkParticles> part(const std::vector<CellId>& all, const BulkPartiti
                                int round) {
   CellValues<BulkParticles> mine;
   for (CellId cell : all)
-    if (cell >= partition.begin(rank) && cell < partition.end(rank)) {
+    if (partition.owner(cell) == rank) {
       mine.cells.push_back(cell);
       mine.values.push_back(record_of(cell, round));
     }
@@ -106,8 +106,10 @@ TEST(OwnWorld, UnannouncedEndsBecomeExceptions) {
 }
 
 TEST(Link, ExchangesRandomActiveCells) {
-  for (const CellId count : {1, 3, 7, 1000}) {
-    Link link(world(), count, time_out);
+  for (const std::array<int, 3> cells :
+       {std::array{1, 1, 1}, {3, 1, 1}, {1, 1, 7}, {10, 10, 10}, {20, 1, 9}}) {
+    Link link(world(), cells, time_out);
+    const CellId count = link.mine().cell_count();
     for (int round = 0; round < 5; ++round) {
       const auto from_particles = random_cells(count, 0.3, 17 * round),
                  to_particles = random_cells(count, 0.7, round);
@@ -123,18 +125,18 @@ TEST(Link, ExchangesRandomActiveCells) {
 }
 
 TEST(Link, SendsEachActiveCellOnceAndNothingElse) {
-  constexpr CellId count = 5000;
+  constexpr std::array<int, 3> grid{20, 10, 25};
   constexpr int width = row_width<BulkParticles>();
   for (const double share : {0.0, 0.02, 0.4}) {
-    Link link(world(), count, time_out);
-    const auto active = random_cells(count, share, 5);
+    Link link(world(), grid, time_out);
+    const auto active = random_cells(link.mine().cell_count(), share, 5);
     link.send(part(active, link.mine(), world().rank(), 0));
     link.receive<BulkParticles>();
     const double bytes = test::sum_over_both(static_cast<double>(link.statistics().bytes_sent));
     const double cells = test::sum_over_both(static_cast<double>(link.statistics().cells_sent));
     EXPECT_EQ(cells, 2.0 * active.size());
-    // A cell is its number and its row; a message between two ranks adds 16 bytes, and there are
-    // fewer pairs of ranks than ranks.
+    // A cell is its number and its row; a message between two ranks adds 16 bytes, and of so few ranks there
+    // are fewer pairs than ranks.
     const double rows = 2.0 * active.size() * 8 * (1 + width);
     EXPECT_GE(bytes, rows);
     EXPECT_LE(bytes, rows + 16 * 2 * (world().size() + world().partner_size() - 1));
@@ -144,15 +146,15 @@ TEST(Link, SendsEachActiveCellOnceAndNothingElse) {
 }
 
 TEST(Link, RefusesCellsOfOtherRanks) {
-  Link link(world(), 100, time_out);
-  CellValues<double> foreign{
-      {world().size() == 1 ? CellId{100} : link.mine().begin((world().rank() + 1) % world().size())}, {1.0}};
+  Link link(world(), {4, 5, 5}, time_out);
+  const int other = (world().rank() + 1) % world().size();
+  CellValues<double> foreign{{world().size() == 1 ? CellId{100} : link.mine().cells(other).at(3)}, {1.0}};
   EXPECT_THROW(link.send(foreign), std::logic_error);
   link.close();
 }
 
 TEST(Link, SwapsTexts) {
-  Link link(world(), 10, time_out);
+  Link link(world(), {10, 1, 1}, time_out);
   for (const std::size_t length : {0, 1, 7, 8, 100000}) {
     const std::string mine(length, on_fluid_side() ? 'f' : 'p');
     EXPECT_EQ(link.swap_text(mine), std::string(length, on_fluid_side() ? 'p' : 'f'));
@@ -161,7 +163,7 @@ TEST(Link, SwapsTexts) {
 }
 
 TEST(Link, AnyRankCanEndBothSides) {
-  Link link(world(), 10, time_out);
+  Link link(world(), {10, 1, 1}, time_out);
   EXPECT_TRUE(link.agree_to_continue(Continue::run));
   const bool last_of_particles = !on_fluid_side() && world().rank() == world().size() - 1;
   EXPECT_FALSE(link.agree_to_continue(last_of_particles ? Continue::stop_requested : Continue::run));
@@ -174,7 +176,7 @@ TEST(Link, AnyRankCanEndBothSides) {
 }
 
 TEST(Handshake, AgreesWithinTolerances) {
-  Link link(world(), 10, time_out);
+  Link link(world(), {10, 1, 1}, time_out);
   const std::string window = on_fluid_side() ? "2e-4" : "0.00020000000001";
   const std::string own = on_fluid_side() ? "fluid only" : "particles only";
   const std::string facts = on_fluid_side() ? R"({"cells": 48000})" : R"({"particles": 3883})";
@@ -185,7 +187,7 @@ TEST(Handshake, AgreesWithinTolerances) {
 }
 
 TEST(Handshake, DisagreementIsTheSameErrorEverywhere) {
-  Link link(world(), 10, time_out);
+  Link link(world(), {10, 1, 1}, time_out);
   const auto here = [](const char* fluid, const char* particles) {
     return on_fluid_side() ? fluid : particles;
   };
@@ -208,13 +210,13 @@ TEST(Handshake, DisagreementIsTheSameErrorEverywhere) {
 }
 
 TEST(Handshake, NumbersOfBulkCellsMustAgree) {
-  Link link(world(), on_fluid_side() ? 6000 : 48000, time_out);
+  Link link(world(), {20, 20, on_fluid_side() ? 15 : 120}, time_out);
   EXPECT_THROW(link.handshake({}, "{}"), InputError);
   link.close();
 }
 
 TEST(Waiting, WaitingCostsNoCore) {
-  Link link(world(), 600, time_out);
+  Link link(world(), {10, 6, 10}, time_out);
   test::meet();
   constexpr double pause = 2;
   if (!on_fluid_side()) {
@@ -233,7 +235,7 @@ TEST(Waiting, WaitingCostsNoCore) {
 }
 
 TEST(Waiting, TimeOutSaysWhoWaitsForWhat) {
-  Link link(world(), 600, on_fluid_side() ? 0.3 : time_out);
+  Link link(world(), {10, 6, 10}, on_fluid_side() ? 0.3 : time_out);
   link.agree_to_continue(Continue::run);  // before the end of the first window signs of life count, too
   if (on_fluid_side()) {
     try {
@@ -250,7 +252,7 @@ TEST(Waiting, TimeOutSaysWhoWaitsForWhat) {
 }
 
 TEST(Waiting, AFailingRankIsHeardByTheOthers) {
-  Link link(world(), 600, time_out);
+  Link link(world(), {10, 6, 10}, time_out);
   test::meet();
   const bool fails = !on_fluid_side() && world().rank() == world().size() - 1;
   if (fails) {
@@ -274,7 +276,7 @@ TEST(Waiting, AFailingRankIsHeardByTheOthers) {
 // Not a check of a bound that other processes on the machine could break, but a number to look at.
 TEST(Link, LatencyOfAWindow) {
   constexpr int windows = 300;
-  Link link(world(), 600, time_out);
+  Link link(world(), {10, 6, 10}, time_out);
   const auto owned = part(random_cells(600, 1.0, 1), link.mine(), world().rank(), 0);
   test::meet();
   const double begin = now();

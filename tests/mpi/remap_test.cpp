@@ -156,7 +156,7 @@ TEST(Remap, ARankWithoutCellsTakesPart) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const BulkGrid grid(zero, one, {4, 4, 4});
   const Cells cells = rank == 0 ? hexahedra(zero, one, {8, 8, 8}) : Cells{};
-  const Remap remap(MPI_COMM_WORLD, grid, BulkPartition(grid.cell_count(), Spread::size(MPI_COMM_WORLD)),
+  const Remap remap(MPI_COMM_WORLD, grid, BulkPartition(grid.cells(), Spread::size(MPI_COMM_WORLD)),
                     fine_mesh(cells), MappingParameters());
   EXPECT_EQ(remap.cells().cells().size(), rank == 0 ? 64u : 0u);
   EXPECT_EQ(remap.to_fine(remap.bulk_volume(), 1), std::vector<double>(cells.size(), 1.0));

@@ -106,30 +106,36 @@ TEST(SparseExchange, KnownRowsArriveWhereTheyBelong) {
   }
 }
 
-/// A box of cells that a rank touches in a grid whose ranks sit in a row along z, with one layer of the next
-/// ones.
-std::vector<CellId> block_of(const BulkGrid& grid, int layers) {
-  std::vector<CellId> cells;
-  for (int k = std::max(0, rank_ * layers - 1); k < std::min(grid.cells()[2], (rank_ + 1) * layers + 1); ++k)
-    for (int cell = 0; cell < grid.cells()[0] * grid.cells()[1]; ++cell)
-      cells.push_back(cell + CellId{grid.cells()[0]} * grid.cells()[1] * k);
+/// The block of a rank and a layer around it.
+CellRange with_layer(const BulkGrid& grid, const BulkPartition& partition) {
+  CellRange cells = partition.block(rank_);
+  for (int axis = 0; axis < 3 && rank_ < partition.owners(); ++axis) {
+    cells.begin[axis] = std::max(0, cells.begin[axis] - 1);
+    cells.end[axis] = std::min(grid.cells()[axis], cells.end[axis] + 1);
+  }
   return cells;
 }
 
 TEST(SparseExchange, ARankTalksToItsNeighboursOnlyHoweverManyThereAre) {
-  constexpr int layers = 4;
-  const BulkGrid grid({0, 0, 0}, {1, 1, 1}, {3, 3, layers * ranks_});
-  const BulkPartition partition(grid.cell_count(), ranks_);
   exchange_with_unknown(MPI_COMM_WORLD, {});  // the communicator of its own is made once
-  sent = dense = 0;
-  const TouchedCells touched(MPI_COMM_WORLD, partition, block_of(grid, layers));
-  const auto sums = touched.sum_to_owners(std::vector<double>(touched.cells().size(), 1.0));
-  touched.fetch_from_owners(sums, 0.0);
-  bring_to_owners(MPI_COMM_WORLD, partition,
-                  CellValues<double>{touched.cells(), std::vector<double>(touched.cells().size())});
-  const int neighbours = (rank_ > 0) + (rank_ + 1 < ranks_);
-  EXPECT_EQ(sent, 4 * neighbours);  // cells, sums, values, records
-  EXPECT_EQ(dense, 0);
+  for (const std::array<int, 3>& cells : {std::array{3, 3, 4 * ranks_}, {12, 12, 12}}) {
+    const BulkGrid grid({0, 0, 0}, {1, 1, 1}, cells);
+    const BulkPartition partition(cells, ranks_);
+    const CellRange reached = with_layer(grid, partition);
+    std::vector<CellId> touches;
+    for (int k = reached.begin[2]; k < reached.end[2]; ++k)
+      for (int j = reached.begin[1]; j < reached.end[1]; ++j)
+        for (int i = reached.begin[0]; i < reached.end[0]; ++i) touches.push_back(grid.id({i, j, k}));
+    sent = dense = 0;
+    const TouchedCells touched(MPI_COMM_WORLD, partition, touches);
+    const auto sums = touched.sum_to_owners(std::vector<double>(touches.size(), 1.0));
+    touched.fetch_from_owners(sums, 0.0);
+    bring_to_owners(MPI_COMM_WORLD, partition,
+                    CellValues<double>{touches, std::vector<double>(touches.size())});
+    const int owners = static_cast<int>(partition.owners_within(reached).size());
+    EXPECT_EQ(sent, 4 * std::max(0, owners - 1));  // cells, sums, values, records
+    EXPECT_EQ(dense, 0);
+  }
 }
 
 }  // namespace

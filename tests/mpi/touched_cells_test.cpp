@@ -36,10 +36,11 @@ void expect_same(const Vec3& a, const Vec3& b, CellId cell) {
 }
 
 TEST(TouchedCells, SumsOntoOwners) {
-  for (const CellId count : {1, 2, 500})
+  for (const std::array<int, 3> grid : {std::array{1, 1, 1}, {1, 2, 1}, {20, 5, 5}})
     for (const double share : {0.0, 0.1, 0.9}) {
+      const BulkPartition partition(grid, world().size());
+      const CellId count = partition.cell_count();
       const unsigned seed = static_cast<unsigned>(count + 10 * share);
-      const BulkPartition partition(count, world().size());
       std::map<CellId, Vec3> expected;  // serial reference, for the cells of this owner
       for (int rank = 0; rank < world().size(); ++rank)
         for (CellId cell : touched_by(rank, count, share, seed))
@@ -60,17 +61,16 @@ TEST(TouchedCells, SumsOntoOwners) {
 }
 
 TEST(TouchedCells, FetchesFromOwnersAndFillsWhatIsAbsent) {
-  constexpr CellId count = 300;
   const Vec3 absent{-1, -2, -3};
-  const BulkPartition partition(count, world().size());
+  const BulkPartition partition({10, 6, 5}, world().size());
   const auto present = [](CellId cell) { return cell % 3 != 0; };
   CellValues<Vec3> owned;
-  for (CellId cell = partition.begin(world().rank()); cell < partition.end(world().rank()); ++cell)
+  for (const CellId cell : partition.cells(world().rank()))
     if (present(cell)) {
       owned.cells.push_back(cell);
       owned.values.push_back(value(world().rank(), cell, 1));
     }
-  const TouchedCells touched(world().comm(), partition, touched_by(world().rank(), count, 0.5, 7));
+  const TouchedCells touched(world().comm(), partition, touched_by(world().rank(), 300, 0.5, 7));
   const auto fetched = touched.fetch_from_owners(owned, absent);
   ASSERT_EQ(fetched.size(), touched.cells().size());
   for (std::size_t i = 0; i < fetched.size(); ++i) {
@@ -81,7 +81,7 @@ TEST(TouchedCells, FetchesFromOwnersAndFillsWhatIsAbsent) {
 
 TEST(TouchedCells, SumsInTheOrderOfRanks) {
   // 1e17 - 1e17 + 1 is 1 in this order only: each rank adds its own part to the same cell.
-  const BulkPartition partition(1, world().size());
+  const BulkPartition partition({1, 1, 1}, world().size());
   const TouchedCells touched(world().comm(), partition, {0});
   const auto part = [](int rank) { return rank == 0 ? 1e17 : rank == 1 ? -1e17 : 1.0; };
   double expected = 0;
@@ -92,7 +92,7 @@ TEST(TouchedCells, SumsInTheOrderOfRanks) {
 }
 
 TEST(TouchedCells, RefusesAPartitionOfOtherRanks) {
-  EXPECT_THROW(TouchedCells(world().comm(), BulkPartition(10, world().size() + 1), {}),
+  EXPECT_THROW(TouchedCells(world().comm(), BulkPartition({10, 1, 1}, world().size() + 1), {}),
                std::invalid_argument);
 }
 

@@ -20,6 +20,8 @@
 #include <map>
 #include <sstream>
 
+#include "coupler/grid/bulk_partition.hpp"
+
 namespace fs = std::filesystem;
 
 namespace demvof {
@@ -194,10 +196,10 @@ TEST(SurfaceSeries, TrianglesOfAllRanksReadBackAndOneFileServesWhileNoneMoves) {
 TEST(BulkSeries, CellsReadBackInTheirPlaces) {
   const fs::path out = folder("bulk_read_back");
   const BulkGrid grid({-0.1, 0, 0.5}, {0.3, 0.3, 0.7}, {4, 3, 2});
-  const BulkPartition partition(grid.cell_count(), ranks_);
+  const BulkPartition partition(grid.cells(), ranks_, RankOrder::z_fastest);
   const auto is_active = [](CellId cell) { return cell % 5 == 2; };  // no piece begins with one
   CellValues<BulkFrame> active;
-  for (CellId cell = partition.begin(rank_); cell < partition.end(rank_); ++cell)
+  for (const CellId cell : partition.cells(rank_))
     if (is_active(cell)) {
       active.cells.push_back(cell);
       active.values.push_back(

@@ -49,6 +49,10 @@ JOB = {"^unit_batch_script$": ["unit_batch_script"]}
 CONTINUED, REFUSALS = ({f"^pair.{name}$": PAIR} for name in ("continued", "refusals"))
 WRONG_USE = {"^faults_rows$": [*PAIR, "failing_files"]}
 NEIGHBOURS = {r"^sparse_exchange_test\.": ["sparse_exchange_test"]}
+PARTITION, PLAN = ({f"^unit_{name}$": [f"unit_{name}"]} for name in ("bulk_partition", "exchange_plan"))
+LINK = {r"^link_test\.": ["link_test"]}
+TOUCHED = {r"^touched_cells_test\.": ["touched_cells_test"], r"^bring_to_owners_test\.": ["bring_to_owners_test"]}
+MEMORY = {r"^bulk_memory_test\.": ["bulk_memory_test"], "^averaging_kernels$": ["averaging_kernels_test"]}
 SERIES = {r"^vtk_series_test\.": ["vtk_series_test"]}
 SPRINGS = {r"^mock_dem_springs\.": ["mock_dem_springs"]}
 SOFT_PAIR = {"^pair.soft_springs$": PAIR}
@@ -140,8 +144,8 @@ FAULTS = [
      "sample.left_over_rate = fluid.left_over", AVERAGING),
     ("coupler/transfer/averaging_in_fluid.cpp", "mean.pressure_gradient / mean.fluid",
      "mean.velocity / mean.fluid", AVERAGING),
-    ("coupler/transfer/limit_solid.cpp", "limit[open_share.cells[i] - around->cells().front()] *= open_share.values[i]",
-     "limit[open_share.cells[i] - around->cells().front()] *= 1", AVERAGING),
+    ("coupler/transfer/limit_solid.cpp", "limit[around->place(open_share.cells[i])] *= open_share.values[i]",
+     "limit[around->place(open_share.cells[i])] *= 1", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "|| limit[c] == 0) continue;", ") continue;", AVERAGING),
     ("coupler/transfer/limit_solid.cpp", "slot >= 0 && beside_place[slot].open > 0", "slot >= 0", AVERAGING),
     ("coupler/closures/lubrication.hpp", "first * second / (first + second)", "(first + second) / 4 + 0 * second", FILMS),
@@ -363,8 +367,27 @@ FAULTS = [
     ("coupler/grid/sparse_exchange.cpp", "MPI_Irecv(in + rows.first * width", "MPI_Irecv(in + rows.first", NEIGHBOURS),
     ("coupler/grid/sparse_exchange.cpp", "if (done) check_mpi(MPI_Ibarrier(channel.comm, &all_taken), \"MPI_Ibarrier\");\n      said = done != 0;",
      "check_mpi(MPI_Ibarrier(channel.comm, &all_taken), \"MPI_Ibarrier\");\n      said = true;", NEIGHBOURS),
-    ("coupler/output/bulk_series.cpp", "layers.owner(cell / cells_in_layer(grid_))", "layers.owner(0 * cell)", SERIES),
-    ("coupler/output/bulk_series.cpp", "is_active->SetValue(active.cells[i] - begin, 1);", "is_active->SetValue(active.cells[i] - active.cells[0], 1);", SERIES),
+    ("coupler/output/bulk_series.cpp", "is_active->SetValue(place, 1);", "is_active->SetValue(i, 1);", SERIES),
+    ("coupler/output/bulk_series.cpp", "extent(owners.block(rank))", "extent(owners.block(0))", SERIES),
+    ("coupler/grid/bulk_partition.cpp", "std::min(ranks / x / y, cells[2])", "std::min(ranks, cells[2])", PARTITION),
+    ("coupler/grid/bulk_partition.cpp", "return 3.0 + (cells[axis] - 1) / blocks;", "return 1.0 + (cells[axis] - 1) / blocks;", PARTITION),
+    ("coupler/grid/bulk_partition.cpp", "(blocks_[axis] * (CellId{ijk[axis]} + 1) - 1) / cells_[axis]",
+     "(blocks_[axis] * CellId{ijk[axis]}) / cells_[axis]", PARTITION),
+    ("coupler/grid/bulk_partition.cpp", "CellId{cells_[axis]} * block[axis] / blocks_[axis]", "cells_[axis] * block[axis] / blocks_[axis]", PARTITION),
+    ("coupler/grid/bulk_partition.cpp", "block_of({range.end[0] - 1, range.end[1] - 1, range.end[2] - 1})",
+     "block_of({range.end[0] - 1, range.end[1] - 1, range.begin[2]})", PARTITION),
+    ("coupler/link/exchange_plan.cpp", "rank += mine.owners()", "rank += theirs.owners()", PLAN),
+    ("coupler/link/exchange_plan.cpp", "if (rank >= theirs.owners()) ranks.push_back(rank);", "", PLAN),
+    ("coupler/link/link.cpp", "std::sort(row_of.begin(), row_of.end());", "", LINK),
+    ("coupler/link/link.cpp", "const std::size_t row = by_rank.rows[part.first + i];", "const std::size_t row = part.first + i;", LINK),
+    ("coupler/grid/touched_cells.cpp", "&fetched[by_owner_.rows[at] * width]", "&fetched[at * width]", TOUCHED),
+    ("coupler/grid/touched_cells.cpp", "sent.insert(sent.end(), rows + row * width, rows + (row + 1) * width);",
+     "sent.insert(sent.end(), rows + sent.size(), rows + sent.size() + width);", TOUCHED),
+    ("coupler/grid/bring_to_owners.cpp", "const std::size_t i = by_owner.rows[at];", "const std::size_t i = at;", TOUCHED),
+    ("coupler/transfer/diffusion.cpp", "line < lines * (share + 1) / of", "line < lines", MEMORY),
+    ("foam_side/gathered_state.cpp", "if (const auto cell = cells[i].get<CellId>(); owns(cell))",
+     "if (const auto cell = cells[i].get<CellId>(); owns(cell) || true)", GATHERED),
+    ("coupler/output/restart_point.cpp", "text.value(\"bulk_blocks\", std::array<int, 3>{})", "std::array<int, 3>{}", STATES),
     ("coupler/output/surface_series.cpp", "&moved, 1, MPI_INT, MPI_MAX, world_", "&moved, 1, MPI_INT, MPI_MIN, world_", SERIES),
     # ---- contacts that drag outruns
     ("dem_side/soft_contacts.cpp", "*spring * window >= 2 * tangent", "*spring * window >= tangent", SPRINGS),

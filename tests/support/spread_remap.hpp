@@ -90,7 +90,7 @@ struct Spread {
   Spread(MPI_Comm world, const Case& c, const MappingParameters& mapping = {})
       : comm(world),
         grid(c.grid),
-        partition(grid.cell_count(), size(world)),
+        partition(grid.cells(), size(world)),
         mine(deal(world, c.cells.size())),
         mesh(part(c.cells, mine)),
         remap(world, grid, partition, mesh, mapping) {}

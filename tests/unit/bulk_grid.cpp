@@ -55,30 +55,5 @@ TEST(BulkGrid, RejectsWhatIsNoGrid) {
                std::invalid_argument);
 }
 
-TEST(BulkPartition, EveryCellHasTheOwnerWhoseBlockHoldsIt) {
-  for (const CellId cells : {1, 2, 3, 7, 64, 6000, 6001})
-    for (const int ranks : {1, 2, 3, 4, 5, 7, 16, 100}) {
-      const BulkPartition partition(cells, ranks);
-      EXPECT_EQ(partition.begin(0), 0);
-      EXPECT_EQ(partition.end(ranks - 1), cells);
-      for (int rank = 0; rank < ranks; ++rank) {
-        const CellId size = partition.end(rank) - partition.begin(rank);
-        EXPECT_GE(size, cells / ranks);
-        EXPECT_LE(size, cells / ranks + 1);
-        for (CellId cell = partition.begin(rank); cell < partition.end(rank); ++cell)
-          ASSERT_EQ(partition.owner(cell), rank) << cell << " of " << cells << " on " << ranks << " ranks";
-      }
-    }
-}
-
-TEST(BulkPartition, HoldsForGridsBeyond32Bits) {
-  const CellId cells = CellId{1} << 40;
-  const BulkPartition partition(cells, 1000);
-  for (const int rank : {0, 1, 499, 999}) {
-    EXPECT_EQ(partition.owner(partition.begin(rank)), rank);
-    EXPECT_EQ(partition.owner(partition.end(rank) - 1), rank);
-  }
-}
-
 }  // namespace
 }  // namespace demvof

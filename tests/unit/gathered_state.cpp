@@ -23,14 +23,21 @@ std::vector<json> two_ranks() {
             "flow": {"cells": 1, "cell_numbers": [1], "gravity": [0, 0, -9], "flux": [10, 11]}})")};
 }
 
-TEST(GatheredState, HasTheBulkCellsThatARankOwns) {
-  const json state = gathered_state(two_ranks(), 2, 4, true, {});
-  EXPECT_EQ(state.at("exchange").at("owed"), json::parse(R"({"cells": [2, 3], "values": [3, 4, 5, 6]})"));
+bool all(CellId) {
+  return true;
+}
+
+TEST(GatheredState, HasTheBulkCellsThatARankOwnsSorted) {
+  const auto owns = [](CellId cell) { return cell != 0 && cell != 4; };
+  for (auto states : {two_ranks(), std::vector<json>{two_ranks()[1], two_ranks()[0]}}) {
+    const json state = gathered_state(states, owns, true);
+    EXPECT_EQ(state.at("exchange").at("owed"), json::parse(R"({"cells": [2, 3], "values": [3, 4, 5, 6]})"));
+  }
 }
 
 TEST(GatheredState, KeepsWhatIsTheSameOnAllRanks) {
   for (const bool first : {true, false}) {
-    const json state = gathered_state(two_ranks(), 0, 5, first, {});
+    const json state = gathered_state(two_ranks(), all, first);
     EXPECT_EQ(state.at("window"), 3);
     EXPECT_EQ(state.at("exchange").at("ratio"), 0.5);
     EXPECT_EQ(state.at("flow").at("gravity"), json({0, 0, -9}));
@@ -38,16 +45,16 @@ TEST(GatheredState, KeepsWhatIsTheSameOnAllRanks) {
 }
 
 TEST(GatheredState, GivesWhatIsSummedOverRanksToTheFirstAlone) {
-  const json first = gathered_state(two_ranks(), 0, 2, true, {}).at("exchange");
+  const json first = gathered_state(two_ranks(), all, true).at("exchange");
   EXPECT_EQ(first.at("on_its_way"), json({11.0, 22.0, 33.0}));
   EXPECT_EQ(first.at("turnover"), 110.0);
-  const json other = gathered_state(two_ranks(), 2, 5, false, {}).at("exchange");
+  const json other = gathered_state(two_ranks(), all, false).at("exchange");
   EXPECT_EQ(other.at("on_its_way"), json({0.0, 0.0, 0.0}));
   EXPECT_EQ(other.at("turnover"), 0.0);
 }
 
 TEST(GatheredState, HasItsFineCellsByTheirNumbers) {
-  const json flow = gathered_state(two_ranks(), 0, 5, true, {1, 3, 0}).at("flow");
+  const json flow = gathered_flow(two_ranks(), {1, 3, 0});
   EXPECT_EQ(flow.at("cells"), 3);
   EXPECT_EQ(flow.at("cell_numbers"), json({1, 3, 0}));
   EXPECT_EQ(flow.at("flux"), json({10.0, 11.0, 30.0, 31.0, 0.0, 1.0}));

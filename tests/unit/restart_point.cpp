@@ -7,7 +7,9 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "coupler/base/checksum.hpp"
 #include "coupler/base/errors.hpp"
 
 namespace fs = std::filesystem;
@@ -66,7 +68,7 @@ class RestartPoints : public testing::Test {
   }
 
   const fs::path run_ = fs::path(testing::TempDir()) / ("demvof_restart_" + std::to_string(getpid()));
-  const StateFrame frame_{1e-3, {0, 0, 0}, {0.4, 0.5, 0.6}, {4, 5, 6}, 2};
+  const StateFrame frame_{1e-3, {0, 0, 0}, {0.4, 0.5, 0.6}, {4, 5, 6}, 2, {1, 1, 2}};
 };
 
 TEST_F(RestartPoints, ReadsBackExactly) {
@@ -75,7 +77,18 @@ TEST_F(RestartPoints, ReadsBackExactly) {
   EXPECT_EQ(found.window, 7);
   EXPECT_EQ(found.time, point.time);
   EXPECT_EQ(found.fluid_time, "0.007");
+  EXPECT_EQ(found.frame.bulk_blocks, frame_.bulk_blocks);
   EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(RestartPoints, OfOwnersThatHadNoBlocksSaysSo) {
+  write(7);
+  auto text = nlohmann::ordered_json::parse(std::ifstream(run_ / "restart" / "latest.json"));
+  text.erase("bulk_blocks");
+  text.erase("checksum");
+  text["checksum"] = Checksum().add(text.dump()).text();
+  std::ofstream(run_ / "restart" / "latest.json") << text.dump(1) << "\n";
+  EXPECT_EQ(read().frame.bulk_blocks, (std::array<int, 3>{}));
 }
 
 TEST_F(RestartPoints, TheNewestStatesStay) {

@@ -58,7 +58,7 @@ Measured measure(const FoamCase& fluid, int n, Mapping mapping) {
   parameters.coupling.sharing = Sharing::volume;
   parameters.coupling.exchange = ExchangeScheme::explicit_drag;
   const BulkGrid grid({0, 0, 0}, box, {2 * n, n, 3 * n});
-  Bridge bridge(*flow, parameters, grid, BulkPartition(grid.cell_count(), 1), MPI_COMM_WORLD);
+  Bridge bridge(*flow, parameters, grid, BulkPartition(grid.cells(), 1), MPI_COMM_WORLD);
   CellValues<BulkParticles> particles;
   Vec3 impulse;
   double volume = 0;
