@@ -32,6 +32,11 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* gradients = gradient_rows();
   for (int i = 0; i < particles.count; ++i) {
+    if (particles.in_clump(i) && dem_.held(particles.mask[i]))  // one that came later
+      throw InputError(fmt::format(
+          "the script holds particle {} of a clump (fix freeze, or move), and LIGGGHTS moves clumps as if it "
+          "did not: give that fix a group of spheres that belong to no clump",
+          particles.id[i]));
     if (own_wake_width_) require_spread(*own_wake_width_, particles.drag_diameter(i));
     const double volume = particles.volume(i);
     const CarriedRow before = carried_by(rows, i);

@@ -45,8 +45,8 @@ Vec3 solution(const Symmetric& a, const Vec3& b) {
 
 Clumps::Clumps(LAMMPS_NS::LAMMPS& liggghts) : liggghts_(liggghts), fix_(find_multisphere(liggghts)) {}
 
-int Clumps::group() const {
-  return fix_->groupbit;
+bool Clumps::has(int i) const {
+  return fix_ && fix_->belongs_to(i) >= 0;
 }
 
 long Clumps::count() const {
@@ -73,6 +73,7 @@ Clumps::Spheres Clumps::spheres() {
     if (SphereOfClump& sphere = spheres_[i]; sphere.clump >= 0)
       sphere.share = sphere.volume / weighted_volumes_[sphere.clump];
   for (int pass = 0; pass < 3; ++pass) balance();
+  find_bodies();
   for (int i = 0; i < atom.nlocal; ++i) {
     SphereOfClump& sphere = spheres_[i];
     if (sphere.clump < 0) continue;
@@ -82,9 +83,49 @@ Clumps::Spheres Clumps::spheres() {
     double velocity[3];
     clumps.vcm(velocity, sphere.clump);
     sphere.velocity = {velocity[0], velocity[1], velocity[2]};
+    sphere.arm = from_centre(i) - off_centre_[sphere.clump];
+    sphere.own_velocity = sphere.velocity + cross(bodies_[sphere.clump].spin(), sphere.arm);
     masses_[i] = sphere.share * clumps.mass(sphere.clump);
   }
-  return {spheres_.data(), masses_.data()};
+  return {spheres_.data(), masses_.data(), bodies_.data(), off_centre_.data()};
+}
+
+Vec3 Clumps::from_centre(int i) const {
+  const double* place = liggghts_.atom->x[i];
+  double centre[3];
+  fix_->data().xcm(centre, spheres_[i].clump);
+  Vec3 r{place[0] - centre[0], place[1] - centre[1], place[2] - centre[2]};
+  liggghts_.domain->minimum_image(r.x, r.y, r.z);
+  return r;
+}
+
+/// Spins go by the momentum and the axes of the same time; those that LIGGGHTS keeps, by axes of half a step
+/// before.
+void Clumps::find_bodies() {
+  LAMMPS_NS::Multisphere& clumps = fix_->data();
+  const auto count = static_cast<std::size_t>(clumps.n_body());
+  bodies_.assign(count, {});
+  off_centre_.assign(count, {});
+  for (int i = 0; i < liggghts_.atom->nlocal; ++i)
+    if (const SphereOfClump& sphere = spheres_[i]; sphere.clump >= 0)
+      off_centre_[sphere.clump] += sphere.share * from_centre(i);
+  double* const* inertia = clumps.extract_double_vector("inertia");
+  double* const* axes[3] = {clumps.extract_double_vector("ex_space"),
+                            clumps.extract_double_vector("ey_space"),
+                            clumps.extract_double_vector("ez_space")};
+  auto& turned = *clumps.prop().getElementProperty<LAMMPS_NS::VectorContainer<bool, 3>>("tflag");
+  for (std::size_t n = 0; n < count; ++n) {
+    RigidBody& body = bodies_[n];
+    double momentum[3];
+    clumps.angmom(momentum, static_cast<int>(n));
+    body.angular_momentum = {momentum[0], momentum[1], momentum[2]};
+    body.mass = clumps.mass(static_cast<int>(n));
+    for (int i = 0; i < 3; ++i) {
+      body.inertia[i] = inertia[n][i];
+      body.axis[i] = {axes[i][n][0], axes[i][n][1], axes[i][n][2]};
+      body.turned[i] = turned(static_cast<int>(n))[i];
+    }
+  }
 }
 
 /// s <- s (1 + b.r), r from the centre of mass, with b such that sum of s r = 0.
@@ -95,13 +136,6 @@ void Clumps::balance() {
     double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  // sum of s r r, m2
   };
   std::vector<Moments> moments(weighted_volumes_.size());
-  const auto from_centre = [&](int i) {
-    double centre[3];
-    fix_->data().xcm(centre, spheres_[i].clump);
-    Vec3 r{atom.x[i][0] - centre[0], atom.x[i][1] - centre[1], atom.x[i][2] - centre[2]};
-    liggghts_.domain->minimum_image(r.x, r.y, r.z);
-    return r;
-  };
   for (int i = 0; i < atom.nlocal; ++i) {
     if (spheres_[i].clump < 0) continue;
     Moments& sum = moments[spheres_[i].clump];

@@ -106,9 +106,10 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
     if (!stream_) stream_ = dynamic_cast<LAMMPS_NS::FixInsertStream*>(&fix);
     const std::string_view style = fix.style;
-    if (style == "nve/sphere" || style == "nve" || style == "multisphere") integrated_ |= fix.groupbit;
+    if (style == "nve/sphere" || style == "nve") integrated_ |= fix.groupbit;
     if (style == "nve/sphere") turned_ |= fix.groupbit;
     if (style == "freeze") frozen_ |= fix.groupbit;
+    if (style == "freeze" || style == "move" || style == "nve/noforce") held_ |= fix.groupbit;
     if (style == "gravity") weighed_ |= fix.groupbit;
   });
 }
@@ -232,6 +233,8 @@ ParticleArrays Dem::particles() const {
   const Clumps::Spheres spheres = clumps_->spheres();
   all.mass = spheres.mass;
   all.of_clump = spheres.of_clump;
+  all.clumps = spheres.bodies;
+  all.off_centre = spheres.off_centre;
   return all;
 }
 

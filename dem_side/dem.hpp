@@ -93,9 +93,10 @@ class Dem {
   ParticleArrays particles() const;
   int mask(int i) const;  // of local particle i
   int type(int i) const;  // of it, from 1
-  /// True when LIGGGHTS moves a particle with this mask by the forces on it; false for particles
-  /// that are frozen, moved by prescription or not integrated at all.
-  bool moves(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
+  /// True when LIGGGHTS moves local particle i by the forces on it; false for particles that are frozen,
+  /// moved by prescription or not integrated at all. Clumps know none of that.
+  bool moves(int i) const { return clumps_->has(i) || ((mask(i) & integrated_) && !(mask(i) & frozen_)); }
+  bool held(int mask) const { return mask & held_; }  // by a fix of the script
   /// An insertion that moves local particle i at the velocity that it prescribes (fix insert/stream, until
   /// the particle has left the insertion's volume): it takes all force from it. With the last step it gives
   /// it a velocity, and forces move it from then on.
@@ -170,8 +171,8 @@ class Dem {
   std::unique_ptr<Clumps> clumps_;
   std::optional<Vec3> gravity_;
   bool continued_;
-  LAMMPS_NS::FixInsertStream* stream_ = nullptr;                // the first of the script; all share its rows
-  int integrated_ = 0, turned_ = 0, frozen_ = 0, weighed_ = 0;  // group bits
+  LAMMPS_NS::FixInsertStream* stream_ = nullptr;  // the first of the script; all share its rows
+  int integrated_ = 0, turned_ = 0, frozen_ = 0, held_ = 0, weighed_ = 0;  // group bits
 };
 
 }  // namespace demvof

@@ -119,7 +119,7 @@ double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
 }
 
 bool FluidForces::moved_by_forces(int i) const {
-  return dem_.moves(dem_.mask(i)) && !dem_.stream(i).carries;
+  return dem_.moves(i) && !dem_.stream(i).carries;
 }
 
 double FluidForces::held_share(const CarriedRow& row, int i) const {
@@ -173,8 +173,7 @@ template <bool with_gradients, class Drag>
 void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
   const Vec3 constant = parameters_.constant;
   if (!begun_) {  // Dem::set_up(): the forces before the first step, without fluid
-    for (int i = 0; i < particles.count; ++i)
-      store(external[i], dem_.moves(particles.mask[i]) ? constant : Vec3{});
+    for (int i = 0; i < particles.count; ++i) store(external[i], dem_.moves(i) ? constant : Vec3{});
     return;
   }
   DemStep step{particles, half_step_ ? dem_.time_step() / 2 : dem_.time_step()};
@@ -193,6 +192,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     for (int i = 0; i < particles.count; ++i) move_alone(step, i, all[i]);
     if (dem_.has_clumps()) move_as_clumps(step, all);
     for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
+    if (dem_.has_clumps()) turn_clumps(particles, external);
   } else {
     for (int i = 0; i < particles.count; ++i) {
       Found found = find_forces<with_gradients>(drag_law, step, i);
@@ -211,11 +211,11 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
   CarriedRow& row = carried_by(step.rows, i);
   const double mass = particles.mass[i], volume = particles.volume(i), length = step.length;
   const double diameter = particles.drag_diameter(i), drag_share = particles.drag_share(i);
-  const Vec3 velocity = vec3(particles.velocity[i]);
+  const Vec3 velocity = particles.own_velocity(i);
   const Dem::Stream stream = dem_.stream(i);
   const bool released = stream.releases && !half_step_;  // set-up is after the release
   Found found;
-  const bool moves = found.moves = dem_.moves(particles.mask[i]) && !stream.carries && !released;
+  const bool moves = found.moves = dem_.moves(i) && !stream.carries && !released;
   if (released) step.sums.held -= mass / length * stream.change;
   const bool heavy = dem_.has_weight(particles.mask[i]);
   const Vec3 weight = heavy ? mass * step.gravity : Vec3{}, constant = parameters_.constant;
@@ -226,8 +226,9 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
   found.touches = touches(contact, weight_of_script);
   row.contacts.touching += found.touches;
   ++row.contacts.evaluations;
-  if (!half_step_) row.path += length * velocity;  // that of the half step: what the position has moved with
-  if (moves && !half_step_) {                      // Dem::set_up() has given half a step of these
+  if (!half_step_)  // by the velocity of the half step: what the position has moved with
+    row.path += length * vec3(particles.velocity[i]);
+  if (moves && !half_step_) {  // Dem::set_up() has given half a step of these
     row.contacts.impulse += length * contact;
     step.sums.contact += contact;
     step.sums.gravity += weight;

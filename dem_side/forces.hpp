@@ -184,6 +184,7 @@ class FluidForces {
   Found find_forces(const Drag& drag_law, DemStep& step, int i);
   void bear_films(DemStep& step, std::vector<Found>& all);
   void move_as_clumps(DemStep& step, std::vector<Found>& all);
+  static void turn_clumps(const ParticleArrays& particles, double* const* external);
   static void require_known_for_clumps(const ForceParameters& parameters);  // InputError
   void move_alone(const DemStep& step, int i, Found& found);
   /// What is to be added to LIGGGHTS's force, N.

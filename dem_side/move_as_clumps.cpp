@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The spheres of a clump have one acceleration: what acts on any of them moves the whole, with the drag of
-// all of them, of which each has its own slip's and its part of the change during the step. One that touches
-// something holds all of them.
+// What acts on any sphere of a clump moves and turns the whole, with the drag and the added mass of all of
+// them, each at its place (rigid_drag.hpp). One that touches something holds all of them.
 
 #include <fmt/format.h>
 
@@ -25,37 +24,54 @@ void FluidForces::require_known_for_clumps(const ForceParameters& parameters) {
 void FluidForces::move_as_clumps(DemStep& step, std::vector<Found>& all) {
   const ParticleArrays& particles = step.particles;
   struct Clump {
-    Found whole;
-    double mass = 0;
+    Matrix6 drag{}, added_mass{};
+    Motion forces;
+    bool touches = false;
+    RigidStep does;
   };
   std::vector<Clump> clumps;
   for (int i = 0; i < particles.count; ++i) {
     if (!particles.in_clump(i)) continue;
-    const auto index = static_cast<std::size_t>(particles.of_clump[i].clump);
+    const SphereOfClump& sphere = particles.of_clump[i];
+    const auto index = static_cast<std::size_t>(sphere.clump);
     if (index >= clumps.size()) clumps.resize(index + 1);
     Clump& clump = clumps[index];
-    const Found& sphere = all[i];
-    clump.mass += particles.mass[i];
-    clump.whole.moves = sphere.moves;
-    clump.whole.touches = clump.whole.touches || sphere.touches;
-    clump.whole.beta += sphere.beta;
-    clump.whole.added += sphere.added;
-    clump.whole.pull += sphere.pull;
-    clump.whole.others += sphere.others;
+    const Found& found = all[i];
+    clump.touches = clump.touches || found.touches;
+    add_place(clump.drag, found.beta, sphere.arm);
+    if (found.added > 0) add_place(clump.added_mass, found.added, sphere.arm);
+    clump.forces.act(found.pull + found.others, sphere.arm);
+    // LIGGGHTS lets contacts act at the sphere's centre. The weight has no moment with either.
+    clump.forces.angular +=
+        vec3(particles.torque[i]) + cross(particles.off_centre[index], vec3(particles.force[i]));
   }
-  for (Clump& clump : clumps) {
-    Found& whole = clump.whole;
-    whole.mean_drag = whole.drag(clump.mass, step.length);
-    if (whole.moves) whole.acceleration = (whole.mean_drag + whole.others) / (clump.mass + whole.added);
+  for (std::size_t n = 0; n < clumps.size(); ++n)
+    clumps[n].does =
+        rigid_step(particles.clumps[n], clumps[n].drag, clumps[n].added_mass, clumps[n].forces, step.length);
+  for (int i = 0; i < particles.count; ++i) {
+    if (!particles.in_clump(i)) continue;
+    const SphereOfClump& sphere = particles.of_clump[i];
+    const Clump& clump = clumps[static_cast<std::size_t>(sphere.clump)];
+    all[i].mean_drag = all[i].pull - all[i].beta * clump.does.mean_change.at(sphere.arm);
+    all[i].acceleration = clump.does.acceleration.at(sphere.arm);
+    carried_by(step.rows, i).contacts.touching += clump.touches && !all[i].touches;
+  }
+}
+
+// LIGGGHTS turns a clump by what it gets at the spheres' centres.
+void FluidForces::turn_clumps(const ParticleArrays& particles, double* const* external) {
+  std::vector<Vec3> sums;
+  for (int i = 0; i < particles.count; ++i) {
+    if (!particles.in_clump(i)) continue;
+    const auto index = static_cast<std::size_t>(particles.of_clump[i].clump);
+    if (index >= sums.size()) sums.resize(index + 1);
+    sums[index] += vec3(external[i]);
   }
   for (int i = 0; i < particles.count; ++i) {
     if (!particles.in_clump(i)) continue;
-    const Found& whole = clumps[static_cast<std::size_t>(particles.of_clump[i].clump)].whole;
-    Found& sphere = all[i];
-    sphere.mean_drag = sphere.pull;
-    if (whole.beta > 0) sphere.mean_drag += sphere.beta / whole.beta * (whole.mean_drag - whole.pull);
-    sphere.acceleration = whole.acceleration;
-    carried_by(step.rows, i).contacts.touching += whole.touches && !sphere.touches;
+    const SphereOfClump& sphere = particles.of_clump[i];
+    const Vec3 torque = sphere.share * cross(particles.off_centre[sphere.clump], sums[sphere.clump]);
+    for (int axis = 0; axis < 3; ++axis) particles.torque[i][axis] -= torque[axis];
   }
 }
 

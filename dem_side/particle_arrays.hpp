@@ -23,12 +23,18 @@ struct ParticleArrays {
   const int* id = nullptr;                  // unique over all ranks
   const int* mask = nullptr;                // LIGGGHTS group bits
   const SphereOfClump* of_clump = nullptr;  // nullptr: there are no clumps
+  const RigidBody* clumps = nullptr;        // by SphereOfClump::clump
+  const Vec3* off_centre = nullptr;         // Clumps::Spheres
 
   bool in_clump(int i) const { return of_clump && of_clump[i].clump >= 0; }
   double volume(int i) const { return of_clump ? of_clump[i].volume : sphere_volume(radius[i]); }  // m3
   /// Of the sphere whose drag it has a share of, m; and that share, -.
   double drag_diameter(int i) const { return of_clump ? of_clump[i].diameter : 2 * radius[i]; }
   double drag_share(int i) const { return of_clump ? of_clump[i].share : 1; }
+  /// With which it slips, m/s.
+  Vec3 own_velocity(int i) const {
+    return in_clump(i) ? of_clump[i].own_velocity : Vec3{velocity[i][0], velocity[i][1], velocity[i][2]};
+  }
 };
 
 inline Vec3 vec3(const double* components) {

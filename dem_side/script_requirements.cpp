@@ -16,6 +16,11 @@
 #include "lammps.h"
 #include "modify.h"
 #include "update.h"
+// clang-format off
+#include "multisphere.h"
+#include "fix_multisphere.h"
+#include "fix_template_multisphere.h"
+// clang-format on
 
 namespace demvof {
 namespace {
@@ -45,21 +50,67 @@ std::string_view objection(std::string_view style) {
   if (style == "momentum")
     return "it takes momentum from the particles that the fluid has given them; remove the line, or unfix it "
            "before the script ends";
+  if (style == "multisphere/nointegration")
+    return "its clumps do not move by the forces on them; use fix multisphere";
   if (starts_with(style, "nve/") && style != "nve/sphere" && style != "nve/noforce")
     return "its particles do not move by the forces on them alone; use fix nve/sphere";
   return {};
 }
 
+bool holds(std::string_view style) {
+  return style == "freeze" || style == "move" || style == "nve/noforce";
+}
+
+constexpr int all = 1;  // group bit
+
+bool has_sphere_of_clump(int group, const LAMMPS_NS::FixMultisphere& clumps, const LAMMPS_NS::Atom& atom) {
+  bool found = group == all;
+  for (int i = 0; i < atom.nlocal && !found; ++i) found = (atom.mask[i] & group) && clumps.belongs_to(i) >= 0;
+  return found;
+}
+
 // The same in a script with clumps.
-std::string_view objection_beside_clumps(const LAMMPS_NS::Fix& fix, const LAMMPS_NS::Fix& clumps) {
-  constexpr int all = 1;  // group bit
+std::string_view objection_beside_clumps(LAMMPS_NS::Fix& fix, const LAMMPS_NS::FixMultisphere& clumps,
+                                         const LAMMPS_NS::Atom& atom) {
   const std::string_view style = fix.style;
+  if (holds(style) && (fix.igroup == clumps.igroup || has_sphere_of_clump(fix.groupbit, clumps, atom)))
+    return "LIGGGHTS moves clumps as if it were not there; give it a group of spheres that belong to no "
+           "clump. "
+           "What is to be held: spheres of their own, without fix multisphere";
+  if (auto* shape = dynamic_cast<LAMMPS_NS::FixTemplateMultisphere*>(&fix)) {
+    bool moved[3];
+    shape->fflag(moved);
+    if (!moved[0] || !moved[1] || !moved[2])
+      return "clumps that forces do not move (fflag off) are not followed; remove fflag. What is to be held: "
+             "spheres of their own, by fix freeze and without fix multisphere";
+  }
   if ((style == "nve/sphere" || style == "nve") && (fix.igroup == clumps.igroup || fix.groupbit == all))
     return "fix multisphere moves these spheres already; remove the line, or give it a group of the spheres "
            "that belong to no clump";
   if (style == "insert/stream")
     return "clumps on their way out of its face are not followed; use insert/rate/region or insert/pack";
   return {};
+}
+
+// Beside clumps: fix multisphere moves those alone.
+std::string spheres_without_integrator(LAMMPS_NS::LAMMPS& liggghts, const LAMMPS_NS::FixMultisphere& clumps) {
+  int known = 0;  // group bits
+  for (int i = 0; i < liggghts.modify->nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
+    const std::string_view style = fix.style;
+    if (style == "nve/sphere" || style == "nve" || holds(style)) known |= fix.groupbit;
+  }
+  const LAMMPS_NS::Atom& atom = *liggghts.atom;
+  int count = 0, first = 0;
+  for (int i = 0; i < atom.nlocal; ++i)
+    if (clumps.belongs_to(i) < 0 && !(atom.mask[i] & known) && count++ == 0) first = atom.tag[i];
+  if (count == 0) return {};
+  return fmt::format(
+      "nothing moves {} that {} to no clump (id {}{}): fix multisphere moves clumps alone. Add 'fix "
+      "move_them "
+      "GROUP nve/sphere' with a group of them; to hold them, 'fix hold GROUP freeze'",
+      count == 1 ? "a sphere" : fmt::format("{} spheres", count), count == 1 ? "belongs" : "belong", first,
+      count == 1 ? "" : " and others");
 }
 
 // A sphere that 'create_atoms' makes is 1 m large until the script gives it a diameter; with such a one in a
@@ -110,16 +161,16 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
   if (const std::string text = larger_than_their_box(liggghts); !text.empty()) mistake(text);
 
   int integrators = 0, gravities = 0;
-  const LAMMPS_NS::Fix* clumps = nullptr;
+  const LAMMPS_NS::FixMultisphere* clumps = nullptr;
   for (int i = 0; i < liggghts.modify->nfix; ++i)
-    if (std::string_view(liggghts.modify->fix[i]->style) == "multisphere") clumps = liggghts.modify->fix[i];
+    if (auto* found = dynamic_cast<LAMMPS_NS::FixMultisphere*>(liggghts.modify->fix[i])) clumps = found;
   for (int i = 0; i < liggghts.modify->nfix; ++i) {
-    const LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
+    LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
     const std::string_view style = fix.style;
     integrators += style == "nve/sphere" || style == "nve" || style == "multisphere";
     gravities += style == "gravity";
     auto reason = objection(style);
-    if (clumps && reason.empty()) reason = objection_beside_clumps(fix, *clumps);
+    if (clumps && reason.empty()) reason = objection_beside_clumps(fix, *clumps, atom);
     if (!reason.empty()) mistake(fmt::format("fix {} {}: {}", fix.id, style, reason));
   }
   if (clumps && liggghts.comm->nprocs > 1)
@@ -127,6 +178,8 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
         fmt::format("fix {} multisphere: LIGGGHTS follows clumps on one rank only, and loses them on {}: "
                     "particles.ranks: 1 in the case file",
                     clumps->id, liggghts.comm->nprocs));
+  if (clumps)
+    if (const std::string text = spheres_without_integrator(liggghts, *clumps); !text.empty()) mistake(text);
   if (integrators == 0) mistake("nothing moves the particles; add 'fix move_them all nve/sphere'");
   if (gravities > 1) mistake(fmt::format("{} fixes of style gravity; there must be at most one", gravities));
   if (!mistakes.empty()) throw InputError(mistakes);

@@ -26,10 +26,12 @@ void keep_volume_of_closed_box(const Flow& flow, scalarField& goal) {
   const double before = Foam::gSum(scalarField(flow.porosity->eps.oldTime() * volumes_before(flow)));
   const double after = Foam::gSum(scalarField(goal * volume)), all = Foam::gSum(volume);
   if (std::abs(after - before) > 1e-6 * all)  // as on a mesh at rest
-    FatalErrorInFunction << "the mesh that moves, or particles, change the volume of fluid by "
-                         << after - before << " m3 of " << before
-                         << " in a box that no pressure boundary opens: give the case an opening"
-                         << Foam::exit(Foam::FatalError);
+    FatalErrorInFunction
+        << "the mesh that moves, or particles, change the volume of fluid by " << after - before << " m3 of "
+        << before
+        << " in a box that no pressure boundary opens: give the case an opening; where there "
+           "is more fluid now and no wall has given way, particles have left it: are any lost?"
+        << Foam::exit(Foam::FatalError);
   goal += (before - after) / all;
 }
 

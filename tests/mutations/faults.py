@@ -26,6 +26,7 @@ DRIVEN = {"^pair.driven_channel$": PAIR}
 HALF = {"^pair.half_submerged$": PAIR}
 FILMS = {"^unit_lubrication$": ["unit_lubrication"], r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
+RIGID = {"^unit_rigid_drag$": ["unit_rigid_drag"]}
 CLUMPS = {r"^mock_dem_clumps\.": ["mock_dem_clumps"]}
 HISTORY = {r"^mock_dem_history\..*\.1$": ["mock_dem_history"]}
 OSCILLATING = {"^pair.oscillating_flow$": PAIR}
@@ -300,9 +301,15 @@ FAULTS = [
     ("dem_side/forces.cpp", "part.beta = drag_share * share *", "part.beta = share *", CLUMPS),
     ("dem_side/forces.cpp", "(particles.in_clump(i) ? Vec3{} : weight_of_script)", "weight_of_script", CLUMPS),
     ("dem_side/report.cpp", "0.5 * dem.time_step() * mass * dem.script_gravity()", "dem.time_step() * mass * dem.script_gravity()", CLUMPS),
-    ("dem_side/move_as_clumps.cpp", "sphere.acceleration = whole.acceleration;", "", CLUMPS),
-    ("dem_side/move_as_clumps.cpp", "sphere.beta / whole.beta * (whole.mean_drag - whole.pull)", "Vec3{}", CLUMPS),
-    ("dem_side/move_as_clumps.cpp", "contacts.touching += whole.touches && !sphere.touches;", "contacts.touching += 0;", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "all[i].acceleration = clump.does.acceleration.at(sphere.arm);", "", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "clump.does.mean_change.at(sphere.arm)", "clump.does.mean_change.linear", CLUMPS),
+    ("dem_side/move_as_clumps.cpp", "contacts.touching += clump.touches && !all[i].touches;", "contacts.touching += 0;", CLUMPS),
+    ("dem_side/forces.cpp", "if (dem_.has_clumps()) turn_clumps(particles, external);", "", CLUMPS),
+    ("dem_side/script_requirements.cpp", "bool found = group == all;", "bool found = false;", CLUMPS),
+    ("dem_side/rigid_drag.cpp", "mean_of_change(std::max(x[i][i], 0.0))", "0.5", RIGID),
+    ("dem_side/rigid_drag.cpp", "divide_by_root(g, congruent(g, added_mass));", "", RIGID),
+    ("dem_side/rigid_drag.cpp", "rate[i] = h[i] - rate[i];", "rate[i] = h[i];", RIGID),
+    ("dem_side/rigid_drag.cpp", "body.turned[i] && ", "", RIGID),
     # ---- meshes that move
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/accelerating_walls.cpp", "(U.oldTime().boundaryField()[patch] - wall)", "(wall - wall)", MOVING),

@@ -91,6 +91,11 @@ def with_clumps_on_two_ranks():
     return with_clumps(box("clumps", sections={"particles": {"ranks": 2}}), 2500, [(0.02, 0.02, 0.03)], 1e-5).write()
 
 
+def with_held_clump():
+    case = with_clumps(box("held_clump"), 2500, [(0.02, 0.02, 0.03)], 1e-5)
+    return replaced(case.write(), "particles/in.particles", "fix floor", "fix hold all freeze\nfix floor")
+
+
 def with_library():
     return replaced(box("library").write(), "fluid/system/controlDict", "startTime 0", 'libs ("libfieldFunctionObjects.so"); startTime 0')
 
@@ -118,6 +123,7 @@ TRIALS = {
     "atom_style_that_is_not_built": (lambda: with_style("atom_style", "atom_style granular", "atom_style superquadric"), 2,
                                      ["in.particles:2: 'atom_style superquadric'", "shape is left out", "'atom_style granular'"]),
     "clumps_on_two_ranks": (with_clumps_on_two_ranks, 2, ["fix move multisphere", "one rank only", "particles.ranks: 1"]),
+    "clump_that_is_held": (with_held_clump, 2, ["fix hold freeze", "LIGGGHTS moves clumps as if it were not there"]),
     "wall_that_moves_on_one_side": (lambda: box("piston", script_tail=PISTON, extra_files={"particles/p.stl": STL}).write(), 2,
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
