@@ -25,6 +25,9 @@ class CellBlock {
     return (ijk[0] - first_[0]) +
            std::size_t(size_[0]) * ((ijk[1] - first_[1]) + std::size_t(size_[1]) * (ijk[2] - first_[2]));
   }
+  /// From a place to that of the next cell along y or z.
+  std::ptrdiff_t y_step() const { return size_[0]; }
+  std::ptrdiff_t z_step() const { return std::ptrdiff_t(size_[0]) * size_[1]; }
   /// Place of the cell moved by step (-1, 0 or 1 per axis), which must lie in the block; -1 beyond a wall of
   /// the grid (periodic directions wrap).
   std::ptrdiff_t place_beside(std::array<int, 3> ijk, const std::array<int, 3>& step) const {

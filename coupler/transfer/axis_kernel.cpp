@@ -9,18 +9,18 @@
 namespace demvof {
 namespace {
 
-/// erf(z), |z| <= gaussian_cut / sqrt 2, to a unit in the last place of 1: z times the Chebyshev polynomial of
-/// erf(z)/z in z^2, by powers of u = z^2/2.25 - 1; even and odd ones by themselves. No call, so that several go
-/// at the same time.
+/// erf(z), |z| <= gaussian_cut / sqrt 2, to a unit in the last place of 1: z times the Chebyshev polynomial
+/// of erf(z)/z in z^2, by powers of u = z^2/2.25 - 1; even and odd ones by themselves. No call, so that
+/// several go at the same time.
 inline double erf_within_cut(double z) {
   static_assert(gaussian_cut == 3.0);
-  constexpr double even[] = {0.6440700976502072,     0.13002914047167516,    0.022688198513323637,
-                             0.0023133106108676987,  0.0001481200687475723,  6.423722837030391e-06,
-                             2.0010239904716265e-07, 4.682162711921724e-09,  8.502047405225345e-11,
+  constexpr double even[] = {0.6440700976502072,     0.13002914047167516,   0.022688198513323637,
+                             0.0023133106108676987,  0.0001481200687475723, 6.423722837030391e-06,
+                             2.0010239904716265e-07, 4.682162711921724e-09, 8.502047405225345e-11,
                              1.3143131857499143e-12};
-  constexpr double odd[] = {-0.2625699042132889,     -0.05818390129351065,    -0.007719156858667304,
-                            -0.0006172438320103695,  -3.225467011560341e-05,  -1.1780098292107017e-06,
-                            -3.1648345877795616e-08, -6.505140409967838e-10,  -1.0529479792910429e-11,
+  constexpr double odd[] = {-0.2625699042132889,     -0.05818390129351065,   -0.007719156858667304,
+                            -0.0006172438320103695,  -3.225467011560341e-05, -1.1780098292107017e-06,
+                            -3.1648345877795616e-08, -6.505140409967838e-10, -1.0529479792910429e-11,
                             -1.4636124067075394e-13};
   const double u = z * z * (1 / 2.25) - 1, square = u * u;
   double evens = even[9], odds = odd[9];

@@ -16,8 +16,8 @@ namespace demvof {
 ///
 ///   w_ick = w_ic s_ck n_ik,   n_ik = 1 / sum over c of w_ic s_ck      s_ck: share of the fluid in cell c, -
 ///
-/// of which w_ic is stored once for all fluids. n_ik goes with the particle's rows and s_ck with the cells', so
-/// that what is left is w_ic: a product of three where the kernel is one.
+/// of which w_ic is stored once for all fluids. n_ik goes with the particle's rows and s_ck with the cells',
+/// so that what is left is w_ic: a product of three where the kernel is one.
 class FluidWeights {
  public:
   /// all: must outlive this, or the next set(). share: per touched cell, -; empty: 1 in all of them.
@@ -59,7 +59,8 @@ class FluidWeights {
       if (is_zero(row)) continue;
       if (!factor_.empty()) scale(factor_[particle], row);
       all_->find_runs(particle, runs_);
-      spread_row<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(row), numbers(cells[0]));
+      spread_row<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(row),
+                                   numbers(cells[0]));
     }
     for (std::size_t cell = 0; cell < share_.size(); ++cell) scale(share_[cell], cells[cell]);
     return cells;
@@ -93,7 +94,8 @@ class FluidWeights {
   Row kernel_mean(const std::vector<Row>& cells, int particle) const {
     Row sum;
     all_->find_runs(particle, runs_);
-    gather_rows<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(cells[0]), numbers(sum));
+    gather_rows<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(cells[0]),
+                                  numbers(sum));
     return sum;
   }
 
@@ -112,7 +114,8 @@ class FluidWeights {
   }
   template <class Row>
   static bool is_zero(const Row& row) {
-    return std::all_of(numbers(row), numbers(row) + row_width<Row>(), [](double number) { return number == 0; });
+    return std::all_of(numbers(row), numbers(row) + row_width<Row>(),
+                       [](double number) { return number == 0; });
   }
   template <class Row>
   static Row zero() {  // members may start with another value
@@ -122,9 +125,9 @@ class FluidWeights {
   }
 
   const KernelWeights* all_ = nullptr;
-  std::vector<double> share_;   // s_ck per touched cell
+  std::vector<double> share_;         // s_ck per touched cell
   mutable std::vector<RowRun> runs_;  // of one particle
-  std::vector<double> factor_;  // n_ik per particle; 0: it reaches no such cell
+  std::vector<double> factor_;        // n_ik per particle; 0: it reaches no such cell
 };
 
 }  // namespace demvof

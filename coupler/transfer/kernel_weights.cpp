@@ -47,10 +47,9 @@ void add_products(const BulkGrid& grid, const AveragingParameters& averaging,
                                           AxisKernel(grid, averaging, 2)};
   std::size_t most = 0;
   for (const AxisKernel& kernel : kernels) most += kernel.most_cells();
-  weights.begin(
-      reachable_block(grid, positions,
-                      {kernels[0].half_width(), kernels[1].half_width(), kernels[2].half_width()}),
-      positions.size(), most * positions.size());
+  weights.begin(reachable_block(grid, positions,
+                                {kernels[0].half_width(), kernels[1].half_width(), kernels[2].half_width()}),
+                positions.size(), most * positions.size());
   for (const Vec3& position : positions) {
     double* share = weights.room(most);
     std::array<CellSpan, 3> spans;
@@ -91,26 +90,32 @@ void KernelWeights::mark(const Box& box) {
   for (int c = 0; c < box.count[2]; ++c)
     for (int b = 0; b < box.count[1]; ++b)
       for (int a = 0; a < box.count[0]; ++a)
-        block_.mark(block_.place({wrapped(box.first[0] + a, 0), wrapped(box.first[1] + b, 1),
-                                  wrapped(box.first[2] + c, 2)}));
+        block_.mark(block_.place(
+            {wrapped(box.first[0] + a, 0), wrapped(box.first[1] + b, 1), wrapped(box.first[2] + c, 2)}));
 }
 
 void KernelWeights::find_runs(int particle, std::vector<RowRun>& runs) const {
   const Box& box = boxes_[particle];
+  const auto [x_first, y_first, z_first] = box.first;
+  const auto [x_cells, y_cells, z_cells] = grid_.cells();
   const int nx = box.count[0], ny = box.count[1], nz = box.count[2];
-  const int before_end = std::min(nx, grid_.cells()[0] - box.first[0]);  // the others follow from 0 on
-  const double* share = &numbers_[box.numbers];
+  const int before_end = std::min(nx, x_cells - x_first);  // the others follow from 0 on
+  const std::ptrdiff_t y_step = block_.y_step(), z_step = block_.z_step();
+  const double* const share = &numbers_[box.numbers];
   runs.resize((before_end < nx ? 2 : 1) * std::size_t(ny) * nz);
   RowRun* run = runs.data();
-  for (int c = 0; c < nz; ++c)
-    for (int b = 0; b < ny; ++b) {
-      const int j = wrapped(box.first[1] + b, 1), k = wrapped(box.first[2] + c, 2);
+  auto plane = static_cast<std::ptrdiff_t>(block_.place(box.first));
+  for (int c = 0; c < nz; ++c, plane += z_step) {
+    if (z_first + c == z_cells) plane -= z_cells * z_step;
+    std::ptrdiff_t row = plane;
+    for (int b = 0; b < ny; ++b, row += y_step) {
+      if (y_first + b == y_cells) row -= y_cells * y_step;
       const double factor = box.product ? share[nx + b] * share[nx + ny + c] : 1;
       const double* x = box.product ? share : share + nx * (b + ny * c);
-      *run++ = {block_.slot(block_.place({box.first[0], j, k})), before_end, x, factor};
-      if (before_end < nx)
-        *run++ = {block_.slot(block_.place({0, j, k})), nx - before_end, x + before_end, factor};
+      *run++ = {block_.slot(row), before_end, x, factor};
+      if (before_end < nx) *run++ = {block_.slot(row - x_first), nx - before_end, x + before_end, factor};
     }
+  }
 }
 
 void KernelWeights::finish() {

@@ -92,7 +92,8 @@ template <int width>
 }
 #else
 template <int width>
-constexpr auto spread_wide = spread<width>, gather_wide = gather<width>;
+constexpr auto spread_wide = spread<width>,
+               gather_wide = gather<width>;
 constexpr bool wide = false;
 #endif
 

@@ -60,7 +60,8 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
                                                        radii(points, std::min(0.04, width + 0.003)));
           ASSERT_EQ(weights.particles(), int(points.size()));
           EXPECT_TRUE(std::is_sorted(weights.cells().begin(), weights.cells().end()));
-          EXPECT_EQ(std::adjacent_find(weights.cells().begin(), weights.cells().end()), weights.cells().end());
+          EXPECT_EQ(std::adjacent_find(weights.cells().begin(), weights.cells().end()),
+                    weights.cells().end());
           for (int i = 0; i < weights.particles(); ++i) {
             double sum = 0;
             std::vector<int> slots;
@@ -85,8 +86,8 @@ TEST(KernelWeights, NoParticlesNoCells) {
 TEST(KernelWeights, CellsCountByTheirOpenShare) {
   const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
   // Halfway between cells 1 and 2; in cell 3; in cell 0, of which nothing is open.
-  const KernelWeights weights = kernel_weights(
-      grid, averaging(Kernel::linear), {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}}, {1, 1, 1});
+  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear),
+                                               {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}}, {1, 1, 1});
   std::vector<double> share;
   for (const CellId cell : weights.cells())
     share.push_back(std::map<CellId, double>{{0, 0}, {1, 0.25}, {2, 1}, {3, 1}}[cell]);
@@ -103,12 +104,13 @@ TEST(KernelWeights, CellsCountByTheirOpenShare) {
   EXPECT_TRUE(found[2].empty()) << "reaches no open cell";
 }
 
-/// What a particle has in a cell, found without boxes, runs and folded spans: the product of the shares of the
-/// cells, each by itself, of all images of the axis that the cell stands for.
+/// What a particle has in a cell, found without boxes, runs and folded spans: the product of the shares of
+/// the cells, each by itself, of all images of the axis that the cell stands for.
 TEST(KernelWeights, ProductsOfTheAxesWhereverTheCellsStand) {
   for (const bool periodic : {false, true})
     for (const int n : {1, 2, 3, 5, 9})
-      for (const double width : {0.2, 0.5, 0.9, 2.6}) {  // the last reaches round a period of five more than once
+      for (const double width :
+           {0.2, 0.5, 0.9, 2.6}) {  // the last reaches round a period of five more than once
         const BulkGrid grid({0, 0, 0}, {double(n), 4, 7}, {n, 4, 7}, {periodic, true, false});
         const auto cumulated = [&](double x) {  // of the cut Gaussian
           const double cut = gaussian_cut / std::sqrt(2.0), z = x / (std::sqrt(2.0) * width);
@@ -120,7 +122,8 @@ TEST(KernelWeights, ProductsOfTheAxesWhereverTheCellsStand) {
           for (int image = -60; image < 60; ++image) {
             const bool mirrored = !grid.periodic()[axis] && ((image % (2 * m)) + 2 * m) % (2 * m) >= m;
             const int inside = ((image % m) + m) % m;
-            if ((mirrored ? m - 1 - inside : inside) == cell) sum += cumulated(image + 1 - x) - cumulated(image - x);
+            if ((mirrored ? m - 1 - inside : inside) == cell)
+              sum += cumulated(image + 1 - x) - cumulated(image - x);
           }
           return sum;
         };
@@ -128,7 +131,9 @@ TEST(KernelWeights, ProductsOfTheAxesWhereverTheCellsStand) {
           double sum = 0;
           for (const auto& [cell, found] : shares(grid, averaging(Kernel::gaussian, width), point)) {
             const std::array<int, 3> ijk = grid.ijk(cell);
-            EXPECT_NEAR(found, share(0, point.x, ijk[0]) * share(1, point.y, ijk[1]) * share(2, point.z, ijk[2]), 1e-15)
+            EXPECT_NEAR(found,
+                        share(0, point.x, ijk[0]) * share(1, point.y, ijk[1]) * share(2, point.z, ijk[2]),
+                        1e-15)
                 << n << ' ' << periodic << ' ' << width;
             sum += found;
           }
