@@ -299,18 +299,57 @@ TEST(KernelWeights, AnEvenSpreadUpToTheWallStaysEven) {
 }
 
 struct Row {
-  double a = 1, b = 2, c = 3;  // sums start from 0 whatever these are
+  double a = 1, b = 2, c = 3, d = 4, e = 5, f = 6;  // sums start from 0 whatever these are
 };
 
 double dot(const Row& x, const Row& y) {
-  return x.a * y.a + x.b * y.b + x.c * y.c;
+  return x.a * y.a + x.b * y.b + x.c * y.c + x.d * y.d + x.e * y.e + x.f * y.f;
+}
+
+template <int width>
+void expect_same_sums_in_wide_registers() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  std::vector<double> rows(9 * width), row(width), share(4);
+  for (std::vector<double>* numbers : {&rows, &row, &share})
+    for (double& number : *numbers) number = uniform(random);
+  const RowRun runs[] = {{0, 3, share.data(), 0.3}, {4, 4, share.data(), -1.7}, {8, 1, &share[1], 1}};
+  std::vector<double> spread = rows, wide = rows, expected = rows, sum(width), wide_sum(width);
+  row_sums::spread<width>(runs, 3, row.data(), spread.data());
+  spread_row<width>(runs, 3, row.data(), wide.data());
+  row_sums::gather<width>(runs, 3, rows.data(), sum.data());
+  gather_rows<width>(runs, 3, rows.data(), wide_sum.data());
+  EXPECT_EQ(spread, wide);
+  EXPECT_EQ(sum, wide_sum);
+  for (int i = 0; i < width; ++i) {
+    double mean = 0;
+    for (const RowRun& run : runs)
+      for (int a = 0; a < run.count; ++a) {
+        expected[(run.first + a) * width + i] += run.factor * run.share[a] * row[i];
+        mean += run.factor * run.share[a] * rows[(run.first + a) * width + i];
+      }
+    EXPECT_NEAR(sum[i], mean, 1e-15);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(spread[i], expected[i], 1e-15);
+}
+
+TEST(RowSums, TheSameOnEveryProcessor) {
+  expect_same_sums_in_wide_registers<1>();
+  expect_same_sums_in_wide_registers<3>();
+  expect_same_sums_in_wide_registers<4>();
+  expect_same_sums_in_wide_registers<13>();
+  expect_same_sums_in_wide_registers<20>();
 }
 
 TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30}, {true, false, false});
   std::mt19937 random(11);
   std::uniform_real_distribution<> uniform(-1, 1);
-  const auto any_row = [&] { return Row{uniform(random), uniform(random), uniform(random)}; };
+  const auto any_row = [&] {
+    Row row;
+    for (double* number : {&row.a, &row.b, &row.c, &row.d, &row.e, &row.f}) *number = uniform(random);
+    return row;
+  };
   const std::vector<Vec3> points = awkward_points(grid);
   for (const Kernel kernel : all_kernels)
     for (const bool shared : {false, true}) {
@@ -332,14 +371,16 @@ TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
         size += std::sqrt(dot(a[i], a[i]));
         right += dot(a[i], weights.sample(offered, i));
         double sum = 0, squares = 0;
-        Row mean{0, 0, 0};
+        double mean_b = 0, mean_e = 0;
         weights.for_each_cell(i, [&](int slot, double weight) {
           EXPECT_TRUE(share.empty() || share[slot] > 0);
           sum += weight;
           squares += weight * weight;
-          mean.b += weight * b[slot].b;
+          mean_b += weight * b[slot].b;
+          mean_e += weight * b[slot].e;
         });
-        EXPECT_NEAR(weights.sample(offered, i).b, mean.b, 1e-15);
+        EXPECT_NEAR(weights.sample(offered, i).b, mean_b, 1e-15);
+        EXPECT_NEAR(weights.sample(offered, i).e, mean_e, 1e-15);
         EXPECT_NEAR(sum, weights.reaches(i) ? 1 : 0, 1e-14);
         EXPECT_EQ(weights.squares(i), squares);
       }
