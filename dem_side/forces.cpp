@@ -17,8 +17,7 @@ namespace {
 
 // Relative change of the slip over which the drag's slope is taken.
 constexpr double tangent_step = 1e-3;
-// Relative change of the slip within which its drag factor follows the slope: with n between 1 and 2 it is
-// good to 3e-6.
+// Within this of the slip its drag factor follows the slope: with n between 1 and 2 it is good to 3e-6.
 constexpr double near_slip = 5e-3;
 
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
@@ -273,7 +272,7 @@ template <bool with_gradients, class Drag>
       step.sums.left_over += fluid.left_over_force;
     }
     if (!row.feels(k)) continue;
-    Found::Part& part = found.parts[k].emplace();
+    Found::Part part;
     const double share = row.share(k);
     part.slip = fluid.velocity - velocity;
     part.beta = drag_share * share * drag_factor(drag_law, fluid, diameter, norm(part.slip));
@@ -307,6 +306,7 @@ template <bool with_gradients, class Drag>
     found.beta += part.beta;
     found.added += part.added;
     found.pull += part.beta * part.slip;
+    found.parts[k] = part;
   }
   if (step.torque) step.torque->act(particles, i, grip);
   if (step.history && !row.feels(0)) step.history->forget(i);
