@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 
 #include "coupler/base/sphere.hpp"
@@ -94,6 +95,14 @@ template <class Carried = CarriedRow>
 Carried& carried_by(double* const* rows, int i) {
   static_assert(std::is_standard_layout_v<Carried> && alignof(Carried) == alignof(double));
   return *reinterpret_cast<Carried*>(rows[i]);
+}
+
+/// Rows are farther from each other than what processors fetch by themselves.
+inline void fetch_ahead(double* const* rows, int i, int count) {
+  constexpr int particles_ahead = 8, line = 64;
+  if (i + particles_ahead >= count) return;
+  const auto* row = reinterpret_cast<const char*>(rows[i + particles_ahead]);
+  for (std::size_t byte = 0; byte < sizeof(CarriedRow); byte += line) __builtin_prefetch(row + byte, 1);
 }
 
 /// The surface at the start of a window; what is not told counts as not there.

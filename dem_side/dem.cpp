@@ -292,8 +292,7 @@ bool Dem::inserts_particles() const {
   return inserts;
 }
 
-Dem::Stream Dem::stream(int i) const {
-  if (!stream_) return {};
+Dem::Stream Dem::found_stream(int i) const {
   // LIGGGHTS's row: place (0 to 2), step of insertion (3; 0: not of a stream) and of release (4), velocity
   // before (5 to 7) and after it (8 to 10)
   const double* row = stream_->fix_prop_release()->array_atom[i];

@@ -105,7 +105,7 @@ class Dem {
     bool releases = false;  // i: this step is the last
     Vec3 change;            // of the velocity by that, m/s
   };
-  Stream stream(int i) const;
+  Stream stream(int i) const { return stream_ ? found_stream(i) : Stream{}; }
   /// True when it turns such a particle by the torque on it.
   bool turns(int mask) const { return (mask & turned_) && !(mask & frozen_); }
   /// True when fix gravity acts on a particle with this mask.
@@ -162,6 +162,7 @@ class Dem {
   void by_the_script(Work&& work);
   void add_fix(std::vector<std::string> words);
   void add_rows(const std::string& name, int width, bool for_ghosts);
+  Stream found_stream(int i) const;
   static void call_back(void* self, long step, int count, int* id, double** position, double** external);
 
   MPI_Comm world_;

@@ -17,8 +17,7 @@ namespace {
 
 // Relative change of the slip over which the drag's slope is taken.
 constexpr double tangent_step = 1e-3;
-// Relative change of the slip within which its drag factor follows the slope: with n between 1 and 2 it is
-// good to 3e-6.
+// Within this of the slip its drag factor follows the slope: with n between 1 and 2 it is good to 3e-6.
 constexpr double near_slip = 5e-3;
 
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
@@ -72,10 +71,19 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
   }
 }
 
-/// beta of a fluid all around it, evaluated where the slip has changed; at the window's first step the drag's
-/// exponent is noted as well.
+/// beta of a fluid all around it, evaluated where the slip has changed.
 template <class Drag>
-double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip) {
+[[gnu::always_inline]] inline double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid,
+                                                              double diameter, double slip) {
+  const LocalDrag& drag = fluid.drag;
+  const bool near = drag.slip > 0 && drag.exponent > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip;
+  return near ? drag.at(slip) : new_drag_factor(law, fluid, diameter, slip);
+}
+
+/// At the window's first step the drag's exponent is noted as well.
+template <class Drag>
+[[gnu::noinline]] double FluidForces::new_drag_factor(const Drag& law, CarriedFluid& fluid, double diameter,
+                                                      double slip) {
   const auto factor = [&](double speed, ClosureCount& count) {
     return own_wake_width_
                ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
@@ -87,7 +95,7 @@ double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid, double dia
     drag.exponent = drag_exponent(drag.factor, factor((1 + tangent_step) * drag.slip, further), tangent_step);
   };
   if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) {
-    if (drag.exponent == 0) find_exponent();
+    find_exponent();
     return drag.at(slip);
   }
   drag = {factor(slip, drag_count_), slip, 0};
@@ -189,14 +197,15 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
     std::vector<Found> all;
     for (int i = 0; i < particles.count; ++i) all.push_back(find_forces<with_gradients>(drag_law, step, i));
     if (lubrication_) bear_films(step, all);
-    for (int i = 0; i < particles.count; ++i) move_alone(step, i, all[i]);
+    for (int i = 0; i < particles.count; ++i) move_alone<with_gradients>(step, i, all[i]);
     if (dem_.has_clumps()) move_as_clumps(step, all);
     for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
     if (dem_.has_clumps()) turn_clumps(particles, external);
   } else {
     for (int i = 0; i < particles.count; ++i) {
+      fetch_ahead(step.rows, i, particles.count);
       Found found = find_forces<with_gradients>(drag_law, step, i);
-      move_alone(step, i, found);
+      move_alone<with_gradients>(step, i, found);
       store(external[i], force_on<with_gradients>(step, i, found));
     }
   }
@@ -205,8 +214,10 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   steps_ += !half_step_;
 }
 
+// The loop over particles waits for nothing if these become part of it.
 template <bool with_gradients, class Drag>
-FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step, int i) {
+[[gnu::always_inline]] inline FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
+                                                                          int i) {
   const ParticleArrays& particles = step.particles;
   CarriedRow& row = carried_by(step.rows, i);
   const double mass = particles.mass[i], volume = particles.volume(i), length = step.length;
@@ -262,7 +273,7 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
       step.sums.left_over += fluid.left_over_force;
     }
     if (!row.feels(k)) continue;
-    Found::Part& part = found.parts[k];
+    Found::Part part;
     const double share = row.share(k);
     part.slip = fluid.velocity - velocity;
     part.beta = drag_share * share * drag_factor(drag_law, fluid, diameter, norm(part.slip));
@@ -296,33 +307,32 @@ FluidForces::Found FluidForces::find_forces(const Drag& drag_law, DemStep& step,
     found.beta += part.beta;
     found.added += part.added;
     found.pull += part.beta * part.slip;
+    found.parts[k] = part;
   }
   if (step.torque) step.torque->act(particles, i, grip);
   if (step.history && !row.feels(0)) step.history->forget(i);
-  const Found::Part(&parts)[2] = found.parts;
-  found.others = found.others + found.steady + parts[0].across + parts[1].across + accelerated +
-                 parts[0].overdue + parts[1].overdue;
+  found.others = found.others + found.steady + accelerated;
+  for (const std::optional<Found::Part>& part : found.parts)
+    if (part) found.others += part->across + part->overdue;
   return found;
 }
 
-Vec3 FluidForces::Found::drag(double mass, double step) const {
-  return moves && beta > 0 ? implicit_drag(beta, pull, others, mass + added, step) : pull;
-}
-
-void FluidForces::move_alone(const DemStep& step, int i, Found& found) {
+template <bool with_gradients>
+[[gnu::always_inline]] inline void FluidForces::move_alone(const DemStep& step, int i, Found& found) {
   const double mass = step.particles.mass[i];
   found.mean_drag = found.drag(mass, step.length);
-  if (found.moves) found.acceleration = (found.mean_drag + found.others) / (mass + found.added);
+  if (with_gradients && found.moves)
+    found.acceleration = (found.mean_drag + found.others) / (mass + found.added);
 }
 
 template <bool with_gradients>
-Vec3 FluidForces::force_on(DemStep& step, int i, const Found& found) {
+[[gnu::always_inline]] inline Vec3 FluidForces::force_on(DemStep& step, int i, const Found& found) {
   if (!found.in_fluid) return found.moves ? found.own : Vec3{};
   CarriedRow& row = carried_by(step.rows, i);
   Vec3 given;  // by the exchange: its reaction goes to the fluid
   for (int k = 0; k < 2; ++k) {
-    if (!row.feels(k)) continue;
-    const Found::Part& part = found.parts[k];
+    if (!found.parts[k]) continue;
+    const Found::Part& part = *found.parts[k];
     // Both fluids see the same mean velocity of the step.
     Vec3 of_fluid = part.beta == found.beta
                         ? found.mean_drag

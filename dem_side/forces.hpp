@@ -61,6 +61,7 @@
 #include "dem_side/dem.hpp"
 #include "dem_side/fluid_torque.hpp"
 #include "dem_side/history_force.hpp"
+#include "dem_side/implicit_drag.hpp"
 #include "dem_side/lubrication.hpp"
 
 namespace demvof {
@@ -168,17 +169,20 @@ class FluidForces {
     bool moves = false;     // by the forces on it
     bool touches = false;   // something
     bool in_fluid = false;  // is told of one that acts in this step
-    struct Part {           // in one fluid
+    struct Part {
       double beta = 0, added = 0;
       Vec3 slip, across, overdue;
-    } parts[2];
-    double beta = 0, added = 0;                 // sums
-    Vec3 pull;                                  // sum of beta slip
-    Vec3 steady;                                // of the fluid, constant in the step
-    Vec3 own;                                   // to be added without any fluid
-    Vec3 others;                                // than drag
-    Vec3 drag(double mass, double step) const;  // mean of the step, as what they make a particle do
-    Vec3 mean_drag, acceleration;               // that, and what all of it makes
+    };
+    std::optional<Part> parts[2];                // in the fluids that it feels
+    double beta = 0, added = 0;                  // sums
+    Vec3 pull;                                   // sum of beta slip
+    Vec3 steady;                                 // of the fluid, constant in the step
+    Vec3 own;                                    // to be added without any fluid
+    Vec3 others;                                 // than drag
+    Vec3 drag(double mass, double step) const {  // mean of the step, as what they make a particle do
+      return moves && beta > 0 ? implicit_drag(beta, pull, others, mass + added, step) : pull;
+    }
+    Vec3 mean_drag, acceleration;  // that, and what all of it makes
   };
   template <bool with_gradients, class Drag>
   Found find_forces(const Drag& drag_law, DemStep& step, int i);
@@ -186,6 +190,7 @@ class FluidForces {
   void move_as_clumps(DemStep& step, std::vector<Found>& all);
   static void turn_clumps(const ParticleArrays& particles, double* const* external);
   static void require_known_for_clumps(const ForceParameters& parameters);  // InputError
+  template <bool with_gradients>
   void move_alone(const DemStep& step, int i, Found& found);
   /// What is to be added to LIGGGHTS's force, N.
   template <bool with_gradients>
@@ -193,6 +198,8 @@ class FluidForces {
 
   template <class Drag>
   double drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip);
+  template <class Drag>
+  double new_drag_factor(const Drag& law, CarriedFluid& fluid, double diameter, double slip);
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   Vec3 spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
                  const Vec3& spin, const Vec3& slip);

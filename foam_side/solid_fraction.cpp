@@ -10,7 +10,7 @@
 
 #include "coupler/base/sphere.hpp"
 #include "coupler/exchange/solid_in_fluids.hpp"
-#include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/fluid_weights.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/particles_to_fine.hpp"
 
@@ -136,24 +136,25 @@ scalarField ParticlesToFine::void_fraction(double part) {
 
 scalarField ParticlesToFine::solid_fraction_of(const Vec3& position, double volume) const {
   const double radius = std::cbrt(3 * volume / (4 * pi));
-  KernelWeights weights = kernel_weights(cut_.grid(), coupling_.averaging, {position}, {radius});
+  const KernelWeights weights = kernel_weights(cut_.grid(), coupling_.averaging, {position}, {radius});
   const std::vector<CellId>& touched = cut_.cells().cells();
-  std::vector<int> place(weights.cells.size(), -1);  // in touched; -1: no cell of this rank is near
-  std::vector<double> share(weights.cells.size(), 0.0);
-  for (std::size_t i = 0; i < weights.cells.size(); ++i) {
-    const auto found = std::lower_bound(touched.begin(), touched.end(), weights.cells[i]);
-    if (found == touched.end() || *found != weights.cells[i]) continue;
+  std::vector<int> place(weights.cells().size(), -1);  // in touched; -1: no cell of this rank is near
+  std::vector<double> share(weights.cells().size(), 0.0);
+  for (std::size_t i = 0; i < weights.cells().size(); ++i) {
+    const auto found = std::lower_bound(touched.begin(), touched.end(), weights.cells()[i]);
+    if (found == touched.end() || *found != weights.cells()[i]) continue;
     place[i] = static_cast<int>(found - touched.begin());
     share[i] = cut_.remap().bulk_volume()[place[i]] / cut_.grid().cell_volume();
   }
   for (double& s : share) Foam::reduce(s, Foam::maxOp<double>());
-  count_open_shares(share, weights);
+  FluidWeights open;
+  open.set(weights, std::move(share));
+  if (!open.reaches(0)) open.set(weights);
 
   std::vector<double> totals(touched.size(), 0.0);
-  for (std::size_t entry = 0; entry < weights.weight.size(); ++entry) {
-    const int slot = place[weights.slot[entry]];
-    if (slot >= 0) totals[slot] += volume * weights.weight[entry];
-  }
+  open.for_each_cell(0, [&](int slot, double weight) {
+    if (place[slot] >= 0) totals[place[slot]] += volume * weight;
+  });
   const std::vector<double> fraction = cut_.remap().to_fine(totals, 1);
   scalarField result(flow_.mesh.nCells());
   std::copy(fraction.begin(), fraction.end(), result.begin());

@@ -15,7 +15,7 @@ class CellBlock {
  public:
   /// Spans the cells with indices first..last in each direction (inside the grid, both included).
   CellBlock(const BulkGrid& grid, const std::array<int, 3>& first, const std::array<int, 3>& last)
-      : grid_(&grid), first_(first) {
+      : grid_(grid), first_(first) {
     for (int axis = 0; axis < 3; ++axis) size_[axis] = last[axis] - first[axis] + 1;
     slot_.assign(std::size_t(size_[0]) * size_[1] * size_[2], -1);
   }
@@ -25,13 +25,16 @@ class CellBlock {
     return (ijk[0] - first_[0]) +
            std::size_t(size_[0]) * ((ijk[1] - first_[1]) + std::size_t(size_[1]) * (ijk[2] - first_[2]));
   }
+  /// From a place to that of the next cell along y or z.
+  std::ptrdiff_t y_step() const { return size_[0]; }
+  std::ptrdiff_t z_step() const { return std::ptrdiff_t(size_[0]) * size_[1]; }
   /// Place of the cell moved by step (-1, 0 or 1 per axis), which must lie in the block; -1 beyond a wall of
   /// the grid (periodic directions wrap).
   std::ptrdiff_t place_beside(std::array<int, 3> ijk, const std::array<int, 3>& step) const {
     for (int axis = 0; axis < 3; ++axis) {
-      const int n = grid_->cells()[axis];
+      const int n = grid_.cells()[axis];
       ijk[axis] += step[axis];
-      if (grid_->periodic()[axis])
+      if (grid_.periodic()[axis])
         ijk[axis] = (ijk[axis] + n) % n;
       else if (ijk[axis] < 0 || ijk[axis] >= n)
         return -1;
@@ -48,7 +51,7 @@ class CellBlock {
         for (int i = 0; i < size_[0]; ++i, ++place) {
           if (slot_[place] < 0) continue;
           slot_[place] = static_cast<int>(cells.size());
-          cells.push_back(grid_->id({first_[0] + i, first_[1] + j, first_[2] + k}));
+          cells.push_back(grid_.id({first_[0] + i, first_[1] + j, first_[2] + k}));
         }
     return cells;
   }
@@ -56,7 +59,7 @@ class CellBlock {
   int slot(std::size_t place) const { return slot_[place]; }
 
  private:
-  const BulkGrid* grid_;
+  BulkGrid grid_;
   std::array<int, 3> first_, size_;
   std::vector<int> slot_;
 };

@@ -81,7 +81,7 @@ AveragingParameters with_bandwidth(AveragingParameters parameters, double larges
 
 Averaging::Averaging(MPI_Comm world, const BulkGrid& grid, const BulkPartition& partition,
                      const AveragingParameters& parameters)
-    : world_(world), grid_(grid), partition_(partition), parameters_(parameters) {
+    : world_(world), grid_(grid), partition_(partition), parameters_(parameters), weights_(grid) {
   fluids_.emplace_back(world_, grid_, partition_, parameters_);
 }
 
@@ -129,8 +129,8 @@ void Averaging::set_shares() {
 }
 
 void Averaging::weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
-  weights_ = kernel_weights(grid_, parameters_, positions, radii, std::move(weights_));  // reuses its memory
-  touched_.emplace(world_, partition_, weights_.cells);
+  find_kernel_weights(grid_, parameters_, positions, radii, weights_);
+  touched_.emplace(world_, partition_, weights_.cells());
   if (walled_) mirror_at_walls(grid_, touched_->fetch_from_owners(walls_, BulkWalls{}), positions, weights_);
   find_outside(positions);
   set_shares();
@@ -145,9 +145,9 @@ void Averaging::find_outside(const std::vector<Vec3>& positions) {
     outside_[i] = beyond_a_wall(grid_, positions[i]);
     if (all_open_ || outside_[i]) continue;
     const CellId own = grid_.id(grid_.locate(positions[i]));
-    const auto place = std::lower_bound(weights_.cells.begin(), weights_.cells.end(), own);
-    outside_[i] =
-        place != weights_.cells.end() && *place == own && share[place - weights_.cells.begin()] == 0;
+    const std::vector<CellId>& cells = weights_.cells();
+    const auto place = std::lower_bound(cells.begin(), cells.end(), own);
+    outside_[i] = place != cells.end() && *place == own && share[place - cells.begin()] == 0;
   }
 }
 

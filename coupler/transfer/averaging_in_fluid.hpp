@@ -76,7 +76,7 @@ class AveragingInFluid {
   std::vector<T> fetch(CellValues<T> owned) const {
     if (!relocation_.empty()) owned = relocation_.gather(owned);
     if (diffusion_) owned = diffusion_->gather(std::move(owned));
-    return touched_->fetch_from_owners(owned, T{});
+    return weights_.offered(touched_->fetch_from_owners(owned, T{}));
   }
   double around(int particle, double void_fraction) const;
 

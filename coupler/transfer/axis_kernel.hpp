@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "coupler/grid/bulk_grid.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
 
@@ -11,6 +9,11 @@ namespace demvof {
 /// Half width of the Gaussian kernel in standard deviations. The Gaussian is cut there and normalised;
 /// its second moment is then 2.7 % below width^2.
 constexpr double gaussian_cut = 3.0;
+
+/// Cells that follow each other along an axis; in a periodic direction 0 follows the last one.
+struct CellSpan {
+  int first, count;
+};
 
 /// The cells of the bulk grid along one axis; lengths are in cells, counted from the lower end.
 ///
@@ -25,6 +28,13 @@ class AxisCells {
   /// The cell inside the grid that stands for a cell index beyond its ends.
   int fold(int index) const;
   bool inside(int index) const { return index >= 0 && index < count_; }
+  /// The cells inside the grid that stand for cells first..last.
+  CellSpan fold(int first, int last) const;
+  /// Place in such a span of the cell that stands for an index.
+  int place_in(const CellSpan& span, int index) const {
+    const int place = fold(index) - span.first;
+    return place < 0 ? place + count_ : place;
+  }
   /// Cells first..last hold all that particles with coordinates in [x_min, x_max] reach with the half width.
   void reach(double x_min, double x_max, double half_width, int& first, int& last) const;
   double spacing() const { return spacing_; }  // m
@@ -33,12 +43,6 @@ class AxisCells {
   double lower_, spacing_;
   int count_;
   bool periodic_;
-};
-
-/// Shares of a particle in the cells of one direction; shares add up to 1.
-struct AxisShares {
-  std::vector<int> index;     // cell index along the axis, each once
-  std::vector<double> share;  // -
 };
 
 /// An averaging kernel along one axis of the bulk grid; these kernels are products of three of them.
@@ -52,15 +56,19 @@ class AxisKernel {
  public:
   AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis);
 
-  void shares(double x, AxisShares& shares) const;
+  /// Shares of a particle in the cells that it reaches, each once; they add up to 1. share: with room for
+  /// most_cells().
+  CellSpan shares(double x, double* share) const;
+  int most_cells() const { return most_cells_; }
   /// Farthest distance between a particle and a cell it touches, in cells.
   double half_width() const { return half_width_; }
 
  private:
   AxisCells cells_;
   Kernel kernel_;
-  double width_;  // of the Gaussian, in cells
+  double width_, scale_;  // of the Gaussian, in cells; 1/(sqrt 2 width)
   double half_width_;
+  int most_cells_;
 };
 
 }  // namespace demvof

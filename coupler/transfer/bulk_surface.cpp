@@ -181,20 +181,27 @@ double plane_offset(const Vec3& normal, const Vec3& edges, double share) {
   return 0.5 * (low + high) - 0.5 * box.sum;
 }
 
+// Planes farther below the centre than this, radii, leave a sphere exactly dry.
+constexpr double clearly_above = 1 + 1e-9;
+
 SeenSurface see_surface(const BulkGrid& grid, const Vec3& position, double radius,
                         const std::function<BulkSurface(CellId)>& cell_of) {
   const Neighbourhood near(grid, position, radius, cell_of);
   bool liquid = false, gas = false;
   Vec3 normal, steepness;  // of the planes; of the liquid fraction, where the surface lies on faces
   double overlap = 0, height = 0;
+  bool reaches_liquid = false;
   for (const NearCell& cell : near.cells()) {
     steepness += (0.5 - cell.surface.liquid_fraction) * cell.overlap * (cell.centre - position);
     if (is_cut(cell.surface)) {
       liquid = gas = true;
       overlap += cell.overlap;
       normal += cell.overlap * cell.surface.normal;
-      height += cell.overlap * (cell.surface.offset - dot(cell.surface.normal, position - cell.centre));
+      const double below = cell.surface.offset - dot(cell.surface.normal, position - cell.centre);
+      height += cell.overlap * below;
+      reaches_liquid |= below > -clearly_above * radius;
     } else {
+      reaches_liquid |= cell.surface.liquid_fraction > 0.5;
       (cell.surface.liquid_fraction > 0.5 ? liquid : gas) = true;
     }
   }
@@ -208,7 +215,7 @@ SeenSurface see_surface(const BulkGrid& grid, const Vec3& position, double radiu
   seen.normal = normal / norm(normal);
   const Vec3 size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  seen.wetted = wetted_share(near, position, radius, axis);
+  seen.wetted = reaches_liquid ? wetted_share(near, position, radius, axis) : 0;
   seen.distance = radius * plane_height(seen.wetted);
   if (overlap == 0) return seen;
   // Not touched yet: how far it is.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <utility>
 
 namespace demvof {
 
@@ -54,25 +56,31 @@ class Walk {
 
 void mirror_at_walls(const BulkGrid& grid, const std::vector<BulkWalls>& walls,
                      const std::vector<Vec3>& positions, KernelWeights& weights) {
-  const Walk walk(grid, weights.cells, walls);
-  const auto has_wall = [&](int slot) {
-    const BulkWalls& here = walls[slot];
-    return here.x > 0 || here.y > 0 || here.z > 0;
-  };
+  const std::vector<CellId>& cells = weights.cells();
+  const Walk walk(grid, cells, walls);
+  std::vector<int> slots;
   for (int particle = 0; particle < weights.particles(); ++particle) {
-    const auto first = weights.slot.begin() + weights.first[particle];
-    const auto last = weights.slot.begin() + weights.first[particle + 1];
-    if (std::none_of(first, last, has_wall)) continue;
+    slots.clear();
+    bool beside_wall = false;
+    weights.for_each_cell(particle, [&](int slot, double) {
+      slots.push_back(slot);
+      beside_wall |= walls[slot].x > 0 || walls[slot].y > 0 || walls[slot].z > 0;
+    });
+    if (!beside_wall) continue;
     const std::array<int, 3> own = grid.locate(positions[particle]);
-    for (auto entry = first; entry != last; ++entry) {
-      const CellId end = walk.end(own, grid.ijk(weights.cells[*entry]));
-      if (end == weights.cells[*entry]) continue;
-      auto target = std::find_if(first, last, [&](int slot) { return weights.cells[slot] == end; });
-      if (target == last)  // mirrored farther than the kernel reaches on this side
-        target = std::find_if(first, last, [&](int slot) { return weights.cells[slot] == grid.id(own); });
-      if (target == last) continue;
-      weights.weight[target - weights.slot.begin()] += weights.weight[entry - weights.slot.begin()];
-      weights.weight[entry - weights.slot.begin()] = 0;
+    double* weight = weights.single(particle);
+    const auto entry_of = [&](CellId cell) {
+      return std::find_if(slots.begin(), slots.end(), [&](int slot) { return cells[slot] == cell; }) -
+             slots.begin();
+    };
+    const auto none = static_cast<std::ptrdiff_t>(slots.size());
+    for (std::ptrdiff_t entry = 0; entry < none; ++entry) {
+      const CellId end = walk.end(own, grid.ijk(cells[slots[entry]]));
+      if (end == cells[slots[entry]]) continue;
+      std::ptrdiff_t target = entry_of(end);
+      if (target == none) target = entry_of(grid.id(own));  // mirrored farther than the kernel reaches here
+      if (target == none) continue;
+      weight[target] += std::exchange(weight[entry], 0.0);
     }
   }
 }

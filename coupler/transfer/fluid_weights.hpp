@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include "coupler/grid/bulk_cells.hpp"
 #include "coupler/transfer/kernel_weights.hpp"
+#include "coupler/transfer/row_sums.hpp"
 
 namespace demvof {
 
@@ -13,8 +16,8 @@ namespace demvof {
 ///
 ///   w_ick = w_ic s_ck n_ik,   n_ik = 1 / sum over c of w_ic s_ck      s_ck: share of the fluid in cell c, -
 ///
-/// of which w_ic is stored once for all fluids. Rows are made and taken one particle at a time: those of all
-/// particles together are larger than what the sums need.
+/// of which w_ic is stored once for all fluids. n_ik goes with the particle's rows and s_ck with the cells',
+/// so that what is left is w_ic: a product of three where the kernel is one.
 class FluidWeights {
  public:
   /// all: must outlive this, or the next set(). share: per touched cell, -; empty: 1 in all of them.
@@ -25,9 +28,7 @@ class FluidWeights {
     if (share_.empty()) return;
     factor_.reserve(all.particles());
     for (int particle = 0; particle < all.particles(); ++particle) {
-      double sum = 0;
-      for (int entry = all.first[particle]; entry < all.first[particle + 1]; ++entry)
-        sum += all.weight[entry] * share_[all.slot[entry]];
+      const double sum = kernel_mean(share_, particle);
       factor_.push_back(sum > 0 ? 1 / sum : 0);
     }
   }
@@ -40,35 +41,43 @@ class FluidWeights {
   template <class Visit>
   void for_each_cell(int particle, const Visit& visit) const {
     if (!reaches(particle)) return;
-    const int last = all_->first[particle + 1];
-    if (factor_.empty()) {
-      for (int entry = all_->first[particle]; entry < last; ++entry)
-        visit(all_->slot[entry], all_->weight[entry]);
-      return;
-    }
-    const double factor = factor_[particle];
-    for (int entry = all_->first[particle]; entry < last; ++entry)
-      if (const double share = share_[all_->slot[entry]]; share > 0)
-        visit(all_->slot[entry], factor * share * all_->weight[entry]);
+    all_->for_each_cell(particle, [&](int slot, double weight) {
+      if (factor_.empty())
+        visit(slot, weight);
+      else if (share_[slot] > 0)
+        visit(slot, factor_[particle] * share_[slot] * weight);
+    });
   }
 
   /// Sum over particles of w row(particle), per touched cell; row is asked for those that reach the fluid.
   template <class Row, class RowOf>
   std::vector<Row> deposit(const RowOf& row_of) const {
-    std::vector<Row> cells(all_ ? all_->cells.size() : 0, zero<Row>());
+    std::vector<Row> cells(all_ ? all_->cells().size() : 0, zero<Row>());
     for (int particle = 0; particle < particles(); ++particle) {
       if (!reaches(particle)) continue;
-      const Row row = row_of(particle);
-      for_each_cell(particle, [&](int slot, double weight) { add(weight, row, cells[slot]); });
+      Row row = row_of(particle);
+      if (is_zero(row)) continue;
+      if (!factor_.empty()) scale(factor_[particle], row);
+      all_->find_runs(particle, runs_);
+      spread_row<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(row),
+                                   numbers(cells[0]));
     }
+    for (std::size_t cell = 0; cell < share_.size(); ++cell) scale(share_[cell], cells[cell]);
     return cells;
   }
 
-  /// Sum over the particle's cells of w cells[c]: the transpose of deposit().
+  /// What cells offer, to be sampled: with their shares of the fluid.
+  template <class Row>
+  std::vector<Row> offered(std::vector<Row> cells) const {
+    for (std::size_t cell = 0; cell < share_.size(); ++cell) scale(share_[cell], cells[cell]);
+    return cells;
+  }
+  /// Sum over the particle's cells of w cells[c], offered(cells) given: the transpose of deposit().
   template <class Row>
   Row sample(const std::vector<Row>& cells, int particle) const {
-    Row sum = zero<Row>();
-    for_each_cell(particle, [&](int slot, double weight) { add(weight, cells[slot], sum); });
+    if (!reaches(particle)) return zero<Row>();
+    Row sum = kernel_mean(cells, particle);
+    if (!factor_.empty()) scale(factor_[particle], sum);
     return sum;
   }
 
@@ -80,23 +89,45 @@ class FluidWeights {
   }
 
  private:
+  /// Sum of w_ic cells[c].
   template <class Row>
-  static void add(double weight, const Row& row, Row& sum) {
-    const auto* from = reinterpret_cast<const double*>(&row);
-    auto* to = reinterpret_cast<double*>(&sum);
-    for (int m = 0; m < row_width<Row>(); ++m) to[m] += weight * from[m];
+  Row kernel_mean(const std::vector<Row>& cells, int particle) const {
+    Row sum;
+    all_->find_runs(particle, runs_);
+    gather_rows<row_width<Row>()>(runs_.data(), static_cast<int>(runs_.size()), numbers(cells[0]),
+                                  numbers(sum));
+    return sum;
+  }
+
+  // Records are plain rows of doubles.
+  template <class Row>
+  static double* numbers(Row& row) {
+    return reinterpret_cast<double*>(&row);
+  }
+  template <class Row>
+  static const double* numbers(const Row& row) {
+    return reinterpret_cast<const double*>(&row);
+  }
+  template <class Row>
+  static void scale(double factor, Row& row) {
+    for (int m = 0; m < row_width<Row>(); ++m) numbers(row)[m] *= factor;
+  }
+  template <class Row>
+  static bool is_zero(const Row& row) {
+    return std::all_of(numbers(row), numbers(row) + row_width<Row>(),
+                       [](double number) { return number == 0; });
   }
   template <class Row>
   static Row zero() {  // members may start with another value
     Row row{};
-    auto* numbers = reinterpret_cast<double*>(&row);
-    for (int m = 0; m < row_width<Row>(); ++m) numbers[m] = 0;
+    std::fill_n(numbers(row), row_width<Row>(), 0.0);
     return row;
   }
 
   const KernelWeights* all_ = nullptr;
-  std::vector<double> share_;   // s_ck per touched cell
-  std::vector<double> factor_;  // n_ik per particle; 0: it reaches no such cell
+  std::vector<double> share_;         // s_ck per touched cell
+  mutable std::vector<RowRun> runs_;  // of one particle
+  std::vector<double> factor_;        // n_ik per particle; 0: it reaches no such cell
 };
 
 }  // namespace demvof

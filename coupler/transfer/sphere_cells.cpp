@@ -57,18 +57,16 @@ void SphereCells::find(const Vec3& position, double radius) {
   assert(radius > 0);
   for (int axis = 0; axis < 3; ++axis) {
     const AxisCells& cells = cells_[axis];
-    std::vector<int>& index = index_[axis];
     lower_[axis].clear();
     target_[axis].clear();
-    index.clear();
     const double s = cells.place(position[axis]), r = radius / cells.spacing();
     const int first = static_cast<int>(std::floor(s - r));
-    for (int cell = first; cell == first || cell < s + r; ++cell) {
+    int last = first;
+    while (last + 1 < s + r) ++last;
+    spans_[axis] = cells.fold(first, last);
+    for (int cell = first; cell <= last; ++cell) {
       lower_[axis].push_back(cell == first ? -1.0 : (cell - s) / r);
-      const int folded = cells.inside(cell) ? cell : cells.fold(cell);
-      const auto known = std::find(index.begin(), index.end(), folded);
-      target_[axis].push_back(static_cast<int>(known - index.begin()));
-      if (known == index.end()) index.push_back(folded);
+      target_[axis].push_back(cells.place_in(spans_[axis], cell));
     }
   }
 
@@ -95,8 +93,8 @@ void SphereCells::find(const Vec3& position, double radius) {
       nearest_[axis][i] = x * x;
     }
   }
-  const std::size_t tx = index_[0].size(), ty = index_[1].size();
-  share_.assign(tx * ty * index_[2].size(), 0.0);
+  const std::size_t tx = spans_[0].count, ty = spans_[1].count;
+  share_.assign(tx * ty * spans_[2].count, 0.0);
   place = 0;
   for (std::size_t k = 0; k < nz; ++k)
     for (std::size_t j = 0; j < ny; ++j)

@@ -37,19 +37,16 @@ class SphereCells {
 
   /// position and radius in m; radius > 0. A centre beyond a wall counts as on it.
   void find(const Vec3& position, double radius);
-  /// Of the sphere found last: cell indices along an axis, each once, and the share of
-  /// {index(0)[i], index(1)[j], index(2)[k]}.
-  const std::vector<int>& index(int axis) const { return index_[axis]; }
-  double share(std::size_t i, std::size_t j, std::size_t k) const {
-    return share_[i + index_[0].size() * (j + index_[1].size() * k)];
-  }
+  /// Of the sphere found last: its cells along each axis, and their shares, x fastest.
+  const std::array<CellSpan, 3>& spans() const { return spans_; }
+  const std::vector<double>& shares() const { return share_; }
 
  private:
   std::array<AxisCells, 3> cells_;
   std::array<std::vector<double>, 3>
       lower_;  // lower face of each cell before folding, in radii from the centre
-  std::array<std::vector<int>, 3> target_;  // where in index_ it goes
-  std::array<std::vector<int>, 3> index_;
+  std::array<std::vector<int>, 3> target_;  // where in its span it goes
+  std::array<CellSpan, 3> spans_{};
   std::array<std::vector<double>, 3> nearest_;  // square of a cell's distance from the centre, in radii
   std::vector<double> beyond_, share_;
 };

@@ -37,8 +37,8 @@ AveragingParameters kernel(const benchmark::State& state) {
 
 void make_weights(benchmark::State& state) {
   const auto positions = bed();
-  KernelWeights weights;
-  for (auto _ : state) weights = kernel_weights(grid, kernel(state), positions, radii, std::move(weights));
+  KernelWeights weights(grid);
+  for (auto _ : state) find_kernel_weights(grid, kernel(state), positions, radii, weights);
 }
 BENCHMARK(make_weights)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 
@@ -55,7 +55,7 @@ void sample_rows(benchmark::State& state) {
   const KernelWeights kernels = kernel_weights(grid, kernel(state), bed(), radii);
   FluidWeights weights;
   weights.set(kernels);
-  const std::vector<BulkParticles> cells(kernels.cells.size());
+  const std::vector<BulkParticles> cells(kernels.cells().size());
   for (auto _ : state)
     for (int i = 0; i < particle_count; ++i) benchmark::DoNotOptimize(weights.sample(cells, i));
 }

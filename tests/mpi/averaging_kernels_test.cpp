@@ -189,15 +189,16 @@ TEST_F(AveragingKernels, VolumeSharesAreTheCommonVolume) {
     SphereCells sphere(grid);
     sphere.find(centre, radius);
     double sum = 0;
-    for (std::size_t k = 0; k < sphere.index(2).size(); ++k)
-      for (std::size_t j = 0; j < sphere.index(1).size(); ++j)
-        for (std::size_t i = 0; i < sphere.index(0).size(); ++i) {
-          sum += sphere.share(i, j, k);
+    const auto [x, y, z] = sphere.spans();
+    auto share = sphere.shares().begin();
+    for (int k = 0; k < z.count; ++k)
+      for (int j = 0; j < y.count; ++j)
+        for (int i = 0; i < x.count; ++i, ++share) {
+          sum += *share;
           if ((i + j + k) % 2) continue;  // every other cell will do
-          const std::array<int, 3> ijk{sphere.index(0)[i], sphere.index(1)[j], sphere.index(2)[k]};
-          const Vec3 low = grid.cell_lower(ijk);
+          const Vec3 low = grid.cell_lower({x.first + i, y.first + j, z.first + k});
           const double expected = share_by_chords(centre, radius, low, low + Vec3{1, 1, 1});
-          worst = std::max(worst, std::abs(sphere.share(i, j, k) - expected));
+          worst = std::max(worst, std::abs(*share - expected));
         }
     EXPECT_NEAR(sum, 1, 2e-15);
   }

@@ -16,18 +16,18 @@ std::map<std::array<int, 3>, double> shares(const BulkGrid& grid, Kernel kernel,
   AveragingParameters averaging;
   averaging.kernel = kernel;
   KernelWeights weights = kernel_weights(grid, averaging, {position}, {0.3});
-  std::vector<BulkWalls> walls(weights.cells.size());
+  std::vector<BulkWalls> walls(weights.cells().size());
   for (const auto& [cell, axis] : given)
     for (std::size_t slot = 0; slot < walls.size(); ++slot)
-      if (weights.cells[slot] == grid.id(cell))
+      if (weights.cells()[slot] == grid.id(cell))
         (axis == 0 ? walls[slot].x : axis == 1 ? walls[slot].y : walls[slot].z) = 1;
   mirror_at_walls(grid, walls, {position}, weights);
   std::map<std::array<int, 3>, double> result;
   double sum = 0;
-  for (int e = weights.first[0]; e < weights.first[1]; ++e) {
-    result[grid.ijk(weights.cells[weights.slot[e]])] += weights.weight[e];
-    sum += weights.weight[e];
-  }
+  weights.for_each_cell(0, [&](int slot, double weight) {
+    result[grid.ijk(weights.cells()[slot])] += weight;
+    sum += weight;
+  });
   EXPECT_NEAR(sum, 1, 1e-14);
   return result;
 }
@@ -99,9 +99,15 @@ TEST(BulkWalls, NoWallsNoChange) {
   const std::vector<Vec3> positions{{1.2, 1.3, 1.4}, {5.9, 0.1, 2}};
   AveragingParameters averaging;
   KernelWeights weights = kernel_weights(grid, averaging, positions, {0.3, 0.3});
-  const std::vector<double> before = weights.weight;
-  mirror_at_walls(grid, std::vector<BulkWalls>(weights.cells.size()), positions, weights);
-  EXPECT_EQ(weights.weight, before);
+  const auto all = [&weights] {
+    std::vector<double> found;
+    for (int i = 0; i < 2; ++i)
+      weights.for_each_cell(i, [&](int, double weight) { found.push_back(weight); });
+    return found;
+  };
+  const std::vector<double> before = all();
+  mirror_at_walls(grid, std::vector<BulkWalls>(weights.cells().size()), positions, weights);
+  EXPECT_EQ(all(), before);
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ std::map<CellId, double> shares(const BulkGrid& grid, const AveragingParameters&
                                 double radius = 0.01) {
   const KernelWeights weights = kernel_weights(grid, parameters, {position}, {radius});
   std::map<CellId, double> result;
-  for (int e = weights.first[0]; e < weights.first[1]; ++e)
-    result[weights.cells[weights.slot[e]]] += weights.weight[e];
+  weights.for_each_cell(0, [&](int slot, double weight) { result[weights.cells()[slot]] += weight; });
   return result;
 }
 
@@ -60,16 +59,17 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
           const KernelWeights weights = kernel_weights(grid, averaging(kernel, width), points,
                                                        radii(points, std::min(0.04, width + 0.003)));
           ASSERT_EQ(weights.particles(), int(points.size()));
-          EXPECT_TRUE(std::is_sorted(weights.cells.begin(), weights.cells.end()));
-          EXPECT_EQ(std::adjacent_find(weights.cells.begin(), weights.cells.end()), weights.cells.end());
+          EXPECT_TRUE(std::is_sorted(weights.cells().begin(), weights.cells().end()));
+          EXPECT_EQ(std::adjacent_find(weights.cells().begin(), weights.cells().end()),
+                    weights.cells().end());
           for (int i = 0; i < weights.particles(); ++i) {
             double sum = 0;
             std::vector<int> slots;
-            for (int e = weights.first[i]; e < weights.first[i + 1]; ++e) {
-              EXPECT_GE(weights.weight[e], 0);
-              sum += weights.weight[e];
-              slots.push_back(weights.slot[e]);
-            }
+            weights.for_each_cell(i, [&](int slot, double weight) {
+              EXPECT_GE(weight, 0);
+              sum += weight;
+              slots.push_back(slot);
+            });
             EXPECT_NEAR(sum, 1, 1e-14);
             std::sort(slots.begin(), slots.end());
             EXPECT_EQ(std::adjacent_find(slots.begin(), slots.end()), slots.end()) << "a cell twice";
@@ -80,25 +80,89 @@ TEST(KernelWeights, SharesOfEveryParticleAddUpToOne) {
 TEST(KernelWeights, NoParticlesNoCells) {
   const KernelWeights weights = kernel_weights(BulkGrid({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), {}, {}, {});
   EXPECT_EQ(weights.particles(), 0);
-  EXPECT_TRUE(weights.cells.empty());
+  EXPECT_TRUE(weights.cells().empty());
 }
 
 TEST(KernelWeights, CellsCountByTheirOpenShare) {
   const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {4, 1, 1});
   // Halfway between cells 1 and 2; in cell 3; in cell 0, of which nothing is open.
-  KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear),
-                                         {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}}, {1, 1, 1});
+  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear),
+                                               {{2, 0.5, 0.5}, {3.5, 0.5, 0.5}, {0.25, 0.5, 0.5}}, {1, 1, 1});
   std::vector<double> share;
-  for (const CellId cell : weights.cells)
+  for (const CellId cell : weights.cells())
     share.push_back(std::map<CellId, double>{{0, 0}, {1, 0.25}, {2, 1}, {3, 1}}[cell]);
-  count_open_shares(share, weights);
+  FluidWeights open;
+  open.set(weights, share);
   std::vector<std::map<CellId, double>> found(3);
   for (int i = 0; i < 3; ++i)
-    for (int e = weights.first[i]; e < weights.first[i + 1]; ++e)
-      if (weights.weight[e] != 0) found[i][weights.cells[weights.slot[e]]] = weights.weight[e];
+    open.for_each_cell(i, [&](int slot, double weight) {
+      if (weight != 0) found[i][weights.cells()[slot]] = weight;
+    });
   EXPECT_EQ(found[0], (std::map<CellId, double>{{1, 0.2}, {2, 0.8}}));
   EXPECT_EQ(found[1], (std::map<CellId, double>{{3, 1}}));
-  EXPECT_EQ(found[2], (std::map<CellId, double>{{0, 1}})) << "reaches no open cell";
+  EXPECT_FALSE(open.reaches(2));
+  EXPECT_TRUE(found[2].empty()) << "reaches no open cell";
+}
+
+/// What a particle has in a cell, found without boxes, runs and folded spans: the product of the shares of
+/// the cells, each by itself, of all images of the axis that the cell stands for.
+TEST(KernelWeights, ProductsOfTheAxesWhereverTheCellsStand) {
+  for (const bool periodic : {false, true})
+    for (const int n : {1, 2, 3, 5, 9})
+      for (const double width :
+           {0.2, 0.5, 0.9, 2.6}) {  // the last reaches round a period of five more than once
+        const BulkGrid grid({0, 0, 0}, {double(n), 4, 7}, {n, 4, 7}, {periodic, true, false});
+        const auto cumulated = [&](double x) {  // of the cut Gaussian
+          const double cut = gaussian_cut / std::sqrt(2.0), z = x / (std::sqrt(2.0) * width);
+          return 0.5 * (1 + std::erf(std::clamp(z, -cut, cut)) / std::erf(cut));
+        };
+        const auto share = [&](int axis, double x, int cell) {
+          const int m = grid.cells()[axis];
+          double sum = 0;
+          for (int image = -60; image < 60; ++image) {
+            const bool mirrored = !grid.periodic()[axis] && ((image % (2 * m)) + 2 * m) % (2 * m) >= m;
+            const int inside = ((image % m) + m) % m;
+            if ((mirrored ? m - 1 - inside : inside) == cell)
+              sum += cumulated(image + 1 - x) - cumulated(image - x);
+          }
+          return sum;
+        };
+        for (const Vec3& point : {Vec3{0.1 * n, 0.03, 0.2}, {0.97 * n, 3.9, 6.8}, {0.52 * n, 2.2, 3.3}}) {
+          double sum = 0;
+          for (const auto& [cell, found] : shares(grid, averaging(Kernel::gaussian, width), point)) {
+            const std::array<int, 3> ijk = grid.ijk(cell);
+            EXPECT_NEAR(found,
+                        share(0, point.x, ijk[0]) * share(1, point.y, ijk[1]) * share(2, point.z, ijk[2]),
+                        1e-15)
+                << n << ' ' << periodic << ' ' << width;
+            sum += found;
+          }
+          EXPECT_NEAR(sum, 1, 1e-14);
+        }
+      }
+}
+
+TEST(KernelWeights, SingleWeightsAreTheProductUntilChanged) {
+  const BulkGrid grid({0, 0, 0}, {3, 4, 7}, {3, 4, 7}, {true, false, false});
+  const std::vector<Vec3> points{{0.1, 0.2, 3.3}, {2.9, 2.2, 6.9}, {1.5, 2, 3}};
+  KernelWeights weights = kernel_weights(grid, averaging(Kernel::gaussian), points, radii(points, 1));
+  const auto all = [&weights](int particle) {
+    std::vector<std::pair<int, double>> found;
+    weights.for_each_cell(particle, [&](int slot, double weight) { found.emplace_back(slot, weight); });
+    return found;
+  };
+  const auto first = all(0), second = all(1), third = all(2);
+  double* single = weights.single(1);
+  EXPECT_EQ(all(1), second);
+  single[2] = 7;
+  EXPECT_EQ(weights.single(1), single) << "they are single already";
+  auto changed = second;
+  changed[2].second = 7;
+  EXPECT_EQ(all(1), changed);
+  EXPECT_EQ(all(0), first);
+  weights.single(2);
+  EXPECT_EQ(all(2), third);
+  EXPECT_EQ(all(1), changed);
 }
 
 TEST(KernelWeights, CentreGivesAllToTheCellOfTheParticle) {
@@ -135,7 +199,7 @@ TEST(KernelWeights, LinearKernelSamplesLinearFieldsExactly) {
   }
   const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points, radii(points, 1));
   std::vector<double> cell_values, values(points.size());
-  for (const CellId cell : weights.cells) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
+  for (const CellId cell : weights.cells()) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
   FluidWeights all;
   all.set(weights);
   for (int i = 0; i < weights.particles(); ++i) values[i] = all.sample(cell_values, i);
@@ -235,43 +299,88 @@ TEST(KernelWeights, AnEvenSpreadUpToTheWallStaysEven) {
 }
 
 struct Row {
-  double a = 1, b = 2, c = 3;  // sums start from 0 whatever these are
+  double a = 1, b = 2, c = 3, d = 4, e = 5, f = 6;  // sums start from 0 whatever these are
 };
 
 double dot(const Row& x, const Row& y) {
-  return x.a * y.a + x.b * y.b + x.c * y.c;
+  return x.a * y.a + x.b * y.b + x.c * y.c + x.d * y.d + x.e * y.e + x.f * y.f;
+}
+
+template <int width>
+void expect_same_sums_in_wide_registers() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> uniform(-1, 1);
+  std::vector<double> rows(9 * width), row(width), share(4);
+  for (std::vector<double>* numbers : {&rows, &row, &share})
+    for (double& number : *numbers) number = uniform(random);
+  const RowRun runs[] = {{0, 3, share.data(), 0.3}, {4, 4, share.data(), -1.7}, {8, 1, &share[1], 1}};
+  std::vector<double> spread = rows, wide = rows, expected = rows, sum(width), wide_sum(width);
+  row_sums::spread<width>(runs, 3, row.data(), spread.data());
+  spread_row<width>(runs, 3, row.data(), wide.data());
+  row_sums::gather<width>(runs, 3, rows.data(), sum.data());
+  gather_rows<width>(runs, 3, rows.data(), wide_sum.data());
+  EXPECT_EQ(spread, wide);
+  EXPECT_EQ(sum, wide_sum);
+  for (int i = 0; i < width; ++i) {
+    double mean = 0;
+    for (const RowRun& run : runs)
+      for (int a = 0; a < run.count; ++a) {
+        expected[(run.first + a) * width + i] += run.factor * run.share[a] * row[i];
+        mean += run.factor * run.share[a] * rows[(run.first + a) * width + i];
+      }
+    EXPECT_NEAR(sum[i], mean, 1e-15);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(spread[i], expected[i], 1e-15);
+}
+
+TEST(RowSums, TheSameOnEveryProcessor) {
+  expect_same_sums_in_wide_registers<1>();
+  expect_same_sums_in_wide_registers<3>();
+  expect_same_sums_in_wide_registers<4>();
+  expect_same_sums_in_wide_registers<13>();
+  expect_same_sums_in_wide_registers<20>();
 }
 
 TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30}, {true, false, false});
   std::mt19937 random(11);
   std::uniform_real_distribution<> uniform(-1, 1);
-  const auto any_row = [&] { return Row{uniform(random), uniform(random), uniform(random)}; };
+  const auto any_row = [&] {
+    Row row;
+    for (double* number : {&row.a, &row.b, &row.c, &row.d, &row.e, &row.f}) *number = uniform(random);
+    return row;
+  };
   const std::vector<Vec3> points = awkward_points(grid);
   for (const Kernel kernel : all_kernels)
     for (const bool shared : {false, true}) {
       const KernelWeights kernels = kernel_weights(grid, averaging(kernel), points, radii(points, 0.13));
       std::vector<double> share;
-      for (std::size_t c = 0; shared && c < kernels.cells.size(); ++c)
+      for (std::size_t c = 0; shared && c < kernels.cells().size(); ++c)
         share.push_back(std::max(0.0, uniform(random)));
       FluidWeights weights;
       weights.set(kernels, share);
       std::vector<Row> a, b;
       for (std::size_t i = 0; i < points.size(); ++i) a.push_back(any_row());
-      for (std::size_t c = 0; c < kernels.cells.size(); ++c) b.push_back(any_row());
+      for (std::size_t c = 0; c < kernels.cells().size(); ++c) b.push_back(any_row());
       const std::vector<Row> deposited = weights.deposit<Row>([&](int i) { return a[i]; });
+      const std::vector<Row> offered = weights.offered(b);
       double given = 0, received = 0, left = 0, right = 0, size = 0;
       for (int i = 0; i < weights.particles(); ++i) {
         EXPECT_TRUE(shared || weights.reaches(i));
         given += weights.reaches(i) ? a[i].c : 0;
         size += std::sqrt(dot(a[i], a[i]));
-        right += dot(a[i], weights.sample(b, i));
+        right += dot(a[i], weights.sample(offered, i));
         double sum = 0, squares = 0;
+        double mean_b = 0, mean_e = 0;
         weights.for_each_cell(i, [&](int slot, double weight) {
           EXPECT_TRUE(share.empty() || share[slot] > 0);
           sum += weight;
           squares += weight * weight;
+          mean_b += weight * b[slot].b;
+          mean_e += weight * b[slot].e;
         });
+        EXPECT_NEAR(weights.sample(offered, i).b, mean_b, 1e-15);
+        EXPECT_NEAR(weights.sample(offered, i).e, mean_e, 1e-15);
         EXPECT_NEAR(sum, weights.reaches(i) ? 1 : 0, 1e-14);
         EXPECT_EQ(weights.squares(i), squares);
       }

@@ -63,11 +63,11 @@ TEST(WakeWidth, HoldsTheVarianceOfTheWeights) {
         const KernelWeights w =
             kernel_weights(grid, averaging, {{20 + (i + 0.5) / n, 0.5, 0.5}}, {diameter / 2});
         double mean = 0, second = 0;
-        for (std::size_t e = 0; e < w.weight.size(); ++e) {
-          const double x = grid.cell_centre(grid.ijk(w.cells[w.slot[e]])).x;
-          mean += w.weight[e] * x;
-          second += w.weight[e] * x * x;
-        }
+        w.for_each_cell(0, [&](int slot, double weight) {
+          const double x = grid.cell_centre(grid.ijk(w.cells()[slot])).x;
+          mean += weight * x;
+          second += weight * x * x;
+        });
         variance += (second - mean * mean) / n;
       }
       // On cubes, where the mean over the axes is that of one.
