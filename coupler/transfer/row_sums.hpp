@@ -3,13 +3,9 @@
 
 // Sums of rows of doubles with the weights of a particle, in registers as wide as the processor has: what
 // programs are built for by default has half of them. Products and sums are rounded one by one, in the same
-// order on every processor.
+// order on every x86 processor.
 
 #include <cstring>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define DEMVOF_WIDE_REGISTERS
-#endif
 
 namespace demvof {
 
@@ -79,23 +75,23 @@ template <int width>
   sum.store(to);
 }
 
-#ifdef DEMVOF_WIDE_REGISTERS
+#if defined(__x86_64__) && defined(__GNUC__)
+#define DEMVOF_WIDE [[gnu::target("avx2")]]
 inline const bool wide = __builtin_cpu_supports("avx2") != 0;
+#else
+#define DEMVOF_WIDE
+constexpr bool wide = false;
+#endif
 
 template <int width>
-[[gnu::target("avx2")]] void spread_wide(const RowRun* runs, int count, const double* row, double* rows) {
+DEMVOF_WIDE void spread_wide(const RowRun* runs, int count, const double* row, double* rows) {
   spread<width>(runs, count, row, rows);
 }
 template <int width>
-[[gnu::target("avx2")]] void gather_wide(const RowRun* runs, int count, const double* rows, double* row) {
+DEMVOF_WIDE void gather_wide(const RowRun* runs, int count, const double* rows, double* row) {
   gather<width>(runs, count, rows, row);
 }
-#else
-template <int width>
-constexpr auto spread_wide = spread<width>,
-               gather_wide = gather<width>;
-constexpr bool wide = false;
-#endif
+#undef DEMVOF_WIDE
 
 }  // namespace row_sums
 

@@ -333,7 +333,7 @@ void expect_same_sums_in_wide_registers() {
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(spread[i], expected[i], 1e-15);
 }
 
-TEST(RowSums, TheSameOnEveryProcessor) {
+TEST(RowSums, TheSameInWideRegisters) {
   expect_same_sums_in_wide_registers<1>();
   expect_same_sums_in_wide_registers<3>();
   expect_same_sums_in_wide_registers<4>();
