@@ -95,7 +95,9 @@ class Dem {
   int type(int i) const;  // of it, from 1
   /// True when LIGGGHTS moves local particle i by the forces on it; false for particles that are frozen,
   /// moved by prescription or not integrated at all. Clumps know none of that.
-  bool moves(int i) const { return clumps_->has(i) || ((mask(i) & integrated_) && !(mask(i) & frozen_)); }
+  bool integrates(int i) const {
+    return clumps_->has(i) || ((mask(i) & integrated_) && !(mask(i) & frozen_));
+  }
   bool held(int mask) const { return mask & held_; }  // by a fix of the script
   /// An insertion that moves local particle i at the velocity that it prescribes (fix insert/stream, until
   /// the particle has left the insertion's volume): it takes all force from it. With the last step it gives

@@ -127,7 +127,7 @@ double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
 }
 
 bool FluidForces::moved_by_forces(int i) const {
-  return dem_.moves(i) && !dem_.stream(i).carries;
+  return dem_.integrates(i) && !dem_.stream(i).carries;
 }
 
 double FluidForces::held_share(const CarriedRow& row, int i) const {
@@ -181,7 +181,7 @@ template <bool with_gradients, class Drag>
 void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
   const Vec3 constant = parameters_.constant;
   if (!begun_) {  // Dem::set_up(): the forces before the first step, without fluid
-    for (int i = 0; i < particles.count; ++i) store(external[i], dem_.moves(i) ? constant : Vec3{});
+    for (int i = 0; i < particles.count; ++i) store(external[i], dem_.integrates(i) ? constant : Vec3{});
     return;
   }
   DemStep step{particles, half_step_ ? dem_.time_step() / 2 : dem_.time_step()};
@@ -226,7 +226,7 @@ template <bool with_gradients, class Drag>
   const Dem::Stream stream = dem_.stream(i);
   const bool released = stream.releases && !half_step_;  // set-up is after the release
   Found found;
-  const bool moves = found.moves = dem_.moves(i) && !stream.carries && !released;
+  const bool moves = found.moves = dem_.integrates(i) && !stream.carries && !released;
   if (released) step.sums.held -= mass / length * stream.change;
   const bool heavy = dem_.has_weight(particles.mask[i]);
   const Vec3 weight = heavy ? mass * step.gravity : Vec3{}, constant = parameters_.constant;

@@ -11,7 +11,7 @@ ParticleFrame particle_frame(const Dem& dem, const FluidForces& forces, double w
   ParticleFrame frame;
   for (int i = 0; i < particles.count; ++i) {
     Vec3 contact;
-    if (dem.moves(i) && !dem.stream(i).carries) {
+    if (dem.integrates(i) && !dem.stream(i).carries) {
       contact = vec3(particles.force[i]) - vec3(fluid_force[i]);
       if (dem.has_weight(particles.mask[i]) && !particles.in_clump(i)) contact -= particles.mass[i] * gravity;
     }

@@ -47,7 +47,7 @@ Vec3 half_step_momentum(const Dem& dem) {
   const ParticleArrays particles = dem.particles();
   Vec3 momentum;
   for (int i = 0; i < particles.count; ++i)
-    if (dem.moves(i)) {
+    if (dem.integrates(i)) {
       const bool clump = particles.in_clump(i);
       const double mass = particles.mass[i];
       momentum += mass * (clump ? particles.of_clump[i].velocity : vec3(particles.velocity[i]));

@@ -80,13 +80,13 @@ Matrix6 diagonalise(Matrix6& a) {
         all += a[i][j] * a[i][j];
         off += i != j ? a[i][j] * a[i][j] : 0;
       }
-    if (off <= 1e-34 * all) break;
+    if (off <= 1e-31 * all) break;
     for (int i = 0; i < 5; ++i)
       for (int j = i + 1; j < 6; ++j) {
         if (a[i][j] == 0) continue;
         const double half = 0.5 * (a[j][j] - a[i][i]) / a[i][j];
-        const double t = std::copysign(1.0, half) / (std::abs(half) + std::hypot(half, 1.0));
-        const double c = 1 / std::hypot(t, 1.0), s = t * c;
+        const double t = std::copysign(1.0, half) / (std::abs(half) + std::sqrt(half * half + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
         for (int k = 0; k < 6; ++k) {
           const double first = a[k][i], second = a[k][j];
           a[k][i] = c * first - s * second, a[k][j] = s * first + c * second;
@@ -95,6 +95,7 @@ Matrix6 diagonalise(Matrix6& a) {
           const double first = a[i][k], second = a[j][k];
           a[i][k] = c * first - s * second, a[j][k] = s * first + c * second;
         }
+        a[i][j] = a[j][i] = 0;
         for (auto& row : q) {
           const double first = row[i], second = row[j];
           row[i] = c * first - s * second, row[j] = s * first + c * second;
@@ -154,7 +155,7 @@ void add_place(Matrix6& sum, double c, const Vec3& arm) {
 RigidStep rigid_step(const RigidBody& body, const Matrix6& drag, const Matrix6& added_mass,
                      const Motion& pull_and_others, double step) {
   Matrix6 g = mobility_root(body);
-  divide_by_root(g, congruent(g, added_mass));
+  if (added_mass[0][0] > 0) divide_by_root(g, congruent(g, added_mass));
   Matrix6 x = congruent(g, drag);
   for (auto& row : x)
     for (double& value : row) value *= step;

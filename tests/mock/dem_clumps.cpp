@@ -101,7 +101,8 @@ TEST(DemClumps, AreNotTurnedByBuoyancy) {
   for (int n = 0; n < 10; ++n) window(*scene.dem, forces, {{}, {0, 0, -2500 * 9.81}, 1e-30, 1e-30, {}}, 100);
   const auto particles = scene.dem->particles();
   ASSERT_EQ(particles.count, 12);
-  for (int n = 0; n < 3; ++n) EXPECT_LT(norm(particles.off_centre[n]), 1e-5) << n;  // m; by chance across them
+  for (int n = 0; n < 3; ++n)
+    EXPECT_LT(norm(particles.off_centre[n]), 1e-5) << n;  // m; by chance across them
   for (int i = 0; i < particles.count; ++i) {
     EXPECT_GT(particles.of_clump[i].share, 0);
     EXPECT_LT(norm(demvof::vec3(particles.spin[i])), 1e-6);  // 1 rad/s when shares are the spheres' volumes

@@ -39,7 +39,7 @@ Vec3 half_step_momentum(const demvof::Dem& dem) {
   const auto particles = dem.particles();
   Vec3 momentum;
   for (int i = 0; i < particles.count; ++i)
-    if (dem.moves(i))
+    if (dem.integrates(i))
       momentum += particles.mass[i] * demvof::vec3(particles.velocity[i]) +
                   0.5 * dem.time_step() * demvof::vec3(particles.force[i]);
   MPI_Allreduce(MPI_IN_PLACE, &momentum.x, 3, MPI_DOUBLE, MPI_SUM, dem.world());
