@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 
 #include "coupler/base/errors.hpp"
-#include "coupler/base/printable.hpp"
 #include "coupler/cli/child_process.hpp"
+#include "coupler/cli/slurm_options.hpp"
 #include "coupler/output/write_file.hpp"
 
 namespace demvof {
@@ -17,16 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* first_lines = "#!/bin/bash\n# Written by demvof run --slurm";
-constexpr int time_to_stop = 120;  // s before the limit: for the window to end and a state to be written
-
-void require_option(const std::string& option) {
-  const auto control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-  if (option.size() < 2 || option[0] != '-' || std::any_of(option.begin(), option.end(), control))
-    throw InputError(fmt::format(
-        "demvof run: --slurm-option: '{}' is no option of sbatch; it takes one as it stands behind "
-        "#SBATCH, e.g. --slurm-option=--time=2:00:00",
-        printable(option)));
-}
 
 std::string without_slash_at_end(const fs::path& folder) {
   const fs::path normal = folder.lexically_normal();
@@ -40,7 +29,7 @@ fs::path batch_script_file(const fs::path& out) {
 }
 
 std::string batch_script(const BatchJob& job) {
-  for (const std::string& option : job.slurm_options) require_option(option);
+  require_slurm_options(job.slurm_options, job.ranks);
   const std::string out = without_slash_at_end(job.out);
   std::string text = fmt::format("{}: sbatch {}\n", first_lines, shell_line({batch_script_file(out)}));
   text +=

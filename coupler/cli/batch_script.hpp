@@ -18,7 +18,7 @@ struct BatchJob {
 
 /// The folder of the run with .sbatch behind it: beside it, because demvof run wants an empty one.
 std::filesystem::path batch_script_file(const std::filesystem::path& out);
-/// Throws InputError on a slurm_option that is none.
+/// Throws InputError on slurm_options that are none, or against what the job needs (slurm_options.hpp).
 std::string batch_script(const BatchJob& job);
 /// Writes it. Throws InputError where there is another file of its name, which no demvof has written.
 void write_batch_script(const std::filesystem::path& file, const std::string& script);

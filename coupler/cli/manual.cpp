@@ -145,7 +145,9 @@ const char* const run_manual = R"(DESCRIPTION
 SLURM
     --slurm writes DIR.sbatch, a job with as many tasks as the run has ranks, and says how to submit it. In it
     `demvof run` starts the programs by mpirun, which knows the job's nodes. --slurm-option adds lines of #SBATCH
-    (--time, --partition, --nodes ...; the last one of a name counts).
+    (--time, --partition, --nodes ...; the last one of a name counts). Refused are those that take from the job
+    what it needs: fewer --ntasks, another --signal than TERM to the batch script, --array, --chdir, a --time
+    that is over before the signal.
 
     The job begins the run in DIR, or goes on with it from its last state. After a job that met its time limit, or
     was cancelled, submit the same file again; `sbatch --dependency=singleton DIR.sbatch`, several times, is a

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace demvof {
@@ -10,7 +11,8 @@ namespace {
 
 constexpr auto smaller_steps =
     "What to try: smaller time steps (maxCo in controlDict, coupling.window, the script's timestep).";
-constexpr double warned_of = 0.1;      // of a limit
+constexpr double warned_of = 0.1;  // of a limit
+constexpr double most_of_everything = 1e-3;
 constexpr double absurd_speed = 1000;  // m/s: no flow of incompressible fluids
 
 /// Weighs one number against its limit. That it is no number is beyond every limit.
@@ -21,6 +23,20 @@ void weigh(Verdict& verdict, const std::string& key, double value, double limit,
     verdict.failure = fmt::format("{} ({}: {:g})", said, key, limit);
   else if (!(value <= warned_of * limit))
     verdict.warnings.push_back(said + " " + explained);
+}
+
+/// Momentum of everything, which has no limit: meshes of unequal cells open it by themselves.
+void weigh_everything(Verdict& verdict, const RunResults& results) {
+  if (!results.momentum || results.momentum->judged() == 0) return;
+  const Vec3& errors = results.momentum->worst();
+  const double worst = std::max({errors.x, errors.y, errors.z});
+  if (worst <= most_of_everything) return;
+  verdict.warnings.push_back(fmt::format(
+      "momentum.error is {:.2g}: the momentum of fluid and particles together changed by more than "
+      "the impulses from outside that are known. Cells that are no equal hexahedra, outer correctors "
+      "that do not converge, a patch where the void fraction is given, boundary conditions with "
+      "forces of their own (docs/warnings.md, Momentum that came or went)",
+      worst));
 }
 
 }  // namespace
@@ -43,6 +59,7 @@ Verdict judge(const RunResults& results, const LimitParameters& limits, const Fa
                   "adapt of sizes, velocity, set); else smaller time steps.",
                   errors.momentum),
       books);
+  if (exchange_closes) weigh_everything(verdict, results);
   const char* volume = "(docs/warnings.md, Volume that came or went)";
   weigh(
       verdict, "limits.volume", errors.solid_volume, limits.volume,

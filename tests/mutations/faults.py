@@ -358,7 +358,7 @@ FAULTS = [
     ("coupler/cli/batch_script.cpp", 'option("ntasks", std::to_string(job.ranks));', 'option("ntasks", "1");', JOB),
     ("coupler/cli/batch_script.cpp", "if [ -e {} ]; then", "if [ -d {} ]; then", JOB),
     ("coupler/cli/batch_script.cpp", "    exec {}\\nfi", "    {}\\n    exit\\nfi", JOB),
-    ("coupler/cli/batch_script.cpp", "option.size() < 2 || option[0] != '-' ||", "option.size() < 2 ||", JOB),
+    ("coupler/cli/slurm_options.cpp", "option.size() < 2 || option[0] != '-' ||", "option.size() < 2 ||", JOB),
     ("coupler/cli/launch.cpp", "watch.on_line(printable_lines(text));", "watch.on_line(text);", LAUNCH),
     ("coupler/cli/launch.cpp", "end.code == 3 && end.user_asked", "false", LAUNCH),
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),

@@ -96,6 +96,50 @@ TEST_F(BatchScript, RefusesOptionsThatAreNone) {
   }
 }
 
+TEST_F(BatchScript, RefusesWhatTakesFromTheJobWhatItNeeds) {
+  const std::vector<std::vector<std::string>> wrong = {{"--time=abc"},
+                                                       {"--time=1:"},
+                                                       {"-t 2"},
+                                                       {"--time=2:00"},
+                                                       {"--time 0:01:59"},
+                                                       {"-p long -t1"},
+                                                       {"--array=0-3"},
+                                                       {"-a 1"},
+                                                       {"--ntasks=2"},
+                                                       {"-n2"},
+                                                       {"--ntasks=many"},
+                                                       {"--chdir=/tmp"},
+                                                       {"--wrap=x"},
+                                                       {"--signal=TERM@600"},
+                                                       {"--signal=B:USR1@600"},
+                                                       {"--signal=B:TERM@x"},
+                                                       {"--time=10:00", "--signal=B:TERM@600"},
+                                                       {"--signal=R:TERM@600"}};
+  for (const auto& options : wrong) {
+    BatchJob job = this->job();
+    job.slurm_options = options;
+    EXPECT_THROW(batch_script(job), InputError) << options[0];
+  }
+  const std::vector<std::vector<std::string>> right = {{"--time=3"},
+                                                       {"--time=2:01"},
+                                                       {"--time=1-0"},
+                                                       {"--time=0"},
+                                                       {"--time=UNLIMITED"},
+                                                       {"--time=2", "--time=20"},
+                                                       {"--ntasks=3"},
+                                                       {"-n 8"},
+                                                       {"-p long"},
+                                                       {"--mem 4G"},
+                                                       {"--time=20", "--signal=B:TERM@600"},
+                                                       {"--time=2", "--signal=B:SIGTERM@60"},
+                                                       {"--ntasks-per-node=2"}};
+  for (const auto& options : right) {
+    BatchJob job = this->job();
+    job.slurm_options = options;
+    EXPECT_NO_THROW(batch_script(job)) << options[0];
+  }
+}
+
 TEST_F(BatchScript, ReplacesOnlyWhatDemvofHasWritten) {
   const fs::path file = folder_ / "runs/a.sbatch";
   write_batch_script(file, batch_script(job()));

@@ -59,6 +59,24 @@ TEST(Verdict, BooksThatDoNotCloseAreAFailure) {
   EXPECT_FALSE(judged(open_exchange, 0.5, false).failure) << "a scheme that does not close";
 }
 
+TEST(Verdict, MomentumOfEverythingThatIsOpenIsAWarning) {
+  const auto said = [](double error, bool changed = false) {
+    RunResults results;
+    results.momentum.emplace(Vec3{});
+    OutsideImpulses weight;
+    weight.fluid_weight = {0, 0, -1};
+    results.momentum->close(Vec3{error, 0, -1}, weight, changed);
+    const Verdict verdict = judged(results);
+    EXPECT_FALSE(verdict.failure);
+    return verdict.warnings;
+  };
+  ASSERT_EQ(said(0.9).size(), 1u);
+  EXPECT_EQ(said(0.02).at(0).rfind("momentum.error is 0.02: ", 0), 0u);
+  EXPECT_EQ(said(nan).size(), 1u);
+  EXPECT_TRUE(said(3e-4).empty());
+  EXPECT_TRUE(said(0.9, true).empty()) << "a window that is not judged";
+}
+
 TEST(Verdict, VolumesAreAWarningAndThenAFailure) {
   RunResults results;
   results.conservation.liquid_volume = 0.05;
