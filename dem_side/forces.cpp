@@ -391,10 +391,9 @@ WindowImpulses FluidForces::impulses() const {
 }
 
 long FluidForces::waiting_for_fluid() const {
-  const int count = dem_.particles().count;
   double* const* rows = dem_.particle_rows(rows_name);
   long waiting = 0;
-  for (int i = 0; i < count; ++i) waiting += carried_by(rows, i).waits();
+  for (int i = 0, count = dem_.particles().count; i < count; ++i) waiting += carried_by(rows, i).waits();
   return waiting;
 }
 
