@@ -135,9 +135,8 @@ volScalarField tied(const Flow& flow, scalarField inertia) {
   return with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, inertia);
 }
 
-/// mean(C/eps2) of a face, as far as a change of it pushes neither side by more than what resists it there,
-/// R: inertia, drag, and the other side's drag to which viscosity ties it. Without this, the free side of a
-/// stiff bed gets by half of what it would take to stop it with all its neighbours at rest.
+/// mean(C/eps2) of a face, as far as a change of it pushes neither side by more than what resists it there:
+/// inertia, drag, and the other side's drag to which viscosity ties it.
 surfaceScalarField drag_that_answers(const Flow& flow, const scalarField& own) {
   const Foam::fvMesh& mesh = flow.mesh;
   const FaceDrag& c = *flow.pressure_system.face_drag;
@@ -182,6 +181,28 @@ surfaceScalarField drag_that_answers(const Flow& flow, const scalarField& own) {
     }
   }
   return drag;
+}
+
+/// Beside the edge of a stiff bed the gradient of the pressure on the free side, grad p.S + mean(C/eps2) phi
+/// but for what a step does not change, follows from the balance of the face with the stress of before, as if
+/// the cell's neighbours were at rest. They are not: it takes the part of the change that viscosity can
+/// answer to.
+void slow_free_sides(Flow& flow, const scalarField& inertia) {
+  PressureSystem& system = flow.pressure_system;
+  const FaceDrag& c = *system.face_drag;
+  const surfaceScalarField drag(c.resistance / c.response);
+  surfaceScalarField found(fvc::snGrad(flow.p_rgh) * flow.mesh.magSf() + drag * flow.phi);
+  if (system.free_side && flow.pimple.corrPISO() > 1) {
+    const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
+    const surfaceScalarField lag((drag - drag_that_answers(flow, inertia)) / (drag + tiny) *
+                                 (*system.free_side - found));
+    const scalarField eps(void_fraction(flow));
+    gradient_at_kinks(flow) +=
+        reconstructed(flow, c.eps_f * lag) / eps -
+        flow.source->coefficient.field() / Foam::sqr(eps) * reconstructed(flow, lag / (drag + tiny));
+    found += lag;
+  }
+  system.free_side = std::make_unique<surfaceScalarField>("freeSide", found);
 }
 
 /// mu' above, Pa s.
@@ -233,6 +254,7 @@ void project_velocity(Flow& flow) {
   const bool last = flow.pimple.corrPISO() == flow.pimple.nCorrPISO();
   for (Foam::fvPatchScalarField& at : flow.p_rgh.boundaryFieldRef())
     if (at.fixesValue() && !at.coupled()) at.evaluate();
+  if (!find_gradient_at_kinks(flow)) predicted_flux(flow);  // at the start: what it has there already
   const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
   solve_momentum(flow);
   if (flow.pimple.finalIter()) {
@@ -246,11 +268,8 @@ void project_velocity(Flow& flow) {
   const scalarField inertia(own + flow.source->coefficient.field());  // A_0 + C
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
-  const FaceDrag& drag = *system.face_drag;
-  const surfaceScalarField answering(drag_that_answers(flow, inertia));
-  const surfaceScalarField unanswered(drag.resistance / drag.response - answering);
-  const FaceDrag of_tied(flow, tied(flow, own), system.force);
-  const surfaceScalarField mobility(of_tied.response / (1.0 / of_tied.eps_f + of_tied.response * answering));
+  const surfaceScalarField of_inertia(1.0 / fvc::interpolate(resistance));  // m_0
+  const surfaceScalarField mobility(FaceDrag(flow, tied(flow, own), system.force).mobility());
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
@@ -260,24 +279,23 @@ void project_velocity(Flow& flow) {
 
   const surfaceScalarField gained(flow.phi - predicted);
   const Foam::vectorField push = reconstructed(flow, gained);
-  const Foam::vectorField of_pressure =
-      reconstructed(flow, (1.0 / mobility + unanswered) / fvc::interpolate(resistance) * gained);
+  const Foam::vectorField of_pressure = reconstructed(flow, of_inertia / mobility * gained);
   flow.U.primitiveFieldRef() += push / eps;
   flow.U.correctBoundaryConditions();
   correct_by_sources(flow, inertia);
-  const Foam::vectorField of_potential(inertia / Foam::sqr(eps) * of_pressure -
-                                       reconstructed(flow, drag.eps_f * unanswered * gained) / eps);
+  const Foam::vectorField of_potential(inertia / Foam::sqr(eps) * of_pressure);
   own_gradient(flow) = before - of_potential;
   // u of the next correction is solved with it: what holds a bed, felt by the free gas beside it, throws
   // that.
   gradient_at_kinks(flow) += reconstructed(flow, gained / mobility) - of_potential;
   flow.p_rgh += potential();
+  slow_free_sides(flow, inertia);
   if (!last) flow.p_rgh.primitiveFieldRef() += pressure_of_stress(flow, gained, inertia);
   renew_boundary_pressure(flow);
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
   if (last && flow.pimple.finalIter())  // until then that of the step before is returned
-    open_momentum(flow) = -flow.time.deltaTValue() * (left + inertia / eps * push - eps * of_potential);
+    open_momentum(flow) = -flow.time.deltaTValue() * (left + inertia / eps * (push - of_pressure));
 }
 
 }  // namespace demvof

@@ -211,10 +211,11 @@ TEST_P(ThickLiquid, StaysAtRestUnderGas) {
   EXPECT_LT(latest, disturbance);
 }
 
-/// A bed with sharp edges, held across a column whose sides slip: one dimension, and nothing but inertia, drag
-/// and the ends resists a flow that is uniform. Exact: eps u the same everywhere, and the pressure the sum of
-/// the drag. With a pressure that takes the flux of fluid moving as a whole through a jump of the void fraction
-/// for a stress, or with the free side of a stiff edge pushed as if all its neighbours were at rest, it grows.
+/// A bed with sharp edges, held across a column whose sides slip: one dimension, and nothing but inertia,
+/// drag and the ends resists a flow that is uniform. Exact: eps u the same everywhere, and the pressure the
+/// sum of the drag. With a pressure that takes the flux of fluid moving as a whole through a jump of the void
+/// fraction for a stress, or with the free side of a stiff edge pushed as if all its neighbours were at rest,
+/// it grows.
 TEST_P(ThickLiquid, BedBetweenSlipWalls) {
   const double dx = 0.005, dt = 2e-3, nu = GetParam() * dx * dx / dt, w = 0.05, eps_bed = 0.5;
   const double stress = nu * 1000 / (dx * dx);  // kg/(m3 s)
@@ -223,9 +224,9 @@ TEST_P(ThickLiquid, BedBetweenSlipWalls) {
     const char* outer;
     bool by_pressure;  // what drives the flow
   };
-  for (const Variant& variant :
-       {Variant{0, "1", false}, Variant{0, "3", false}, Variant{1, "1", false}, Variant{1e2, "1", false},
-        Variant{1e2, "5", false}, Variant{1e6, "1", false}, Variant{1e2, "1", true}, Variant{1e6, "3", true}}) {
+  for (const Variant& variant : {Variant{0, "1", false}, Variant{0, "3", false}, Variant{1, "1", false},
+                                 Variant{1e2, "1", false}, Variant{1e2, "5", false}, Variant{1e6, "1", false},
+                                 Variant{1e2, "1", true}, Variant{1e6, "3", true}}) {
     const double lost = 0.02 * variant.drag * stress * w / (eps_bed * eps_bed);  // Pa
     Settings settings{{"walls_U", "{ type slip; }"},
                       {"bottom_U", "{ type fixedValue; value uniform (0 0 0.05); }"},
@@ -252,6 +253,7 @@ TEST_P(ThickLiquid, BedBetweenSlipWalls) {
     set_initial_porosity(*flow, eps);
     flow->source->coefficient.field() =
         cell_values(*flow, [&](const vector& x) { return in_bed(x) ? variant.drag * stress : 0; });
+    balance_pressure(*flow);
     double fastest = 0;
     for (int step = 0; step < 40; ++step) {
       begin_window(*flow, flow->time.value() + dt);
@@ -267,10 +269,10 @@ TEST_P(ThickLiquid, BedBetweenSlipWalls) {
               << (variant.by_pressure ? ", by pressure, " : ", ") << variant.outer
               << " outer correctors: largest speed " << fastest << " m/s, in the end off by " << worst
               << ", drag " << (of_drag > 0 ? held / of_drag : 1) << " of the exact one\n";
-    EXPECT_LT(fastest, 3 * w / eps_bed);
-    EXPECT_LT(worst, 0.5);
+    EXPECT_LT(fastest, 1.15 * w / eps_bed);
+    EXPECT_LT(worst, 0.4);
     if (variant.drag >= 1e2) {
-      EXPECT_NEAR(held / of_drag, 1, 0.05);
+      EXPECT_NEAR(held / of_drag, 1, 0.0028);
     }
   }
 }
