@@ -189,6 +189,7 @@ void solve_momentum(Flow& flow) {
 void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
+  system.free_side.reset();
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
   if (flow.source) system.force = flow.source->force.field() + open_momentum(flow) / flow.time.deltaTValue();

@@ -17,6 +17,7 @@ struct PressureSystem {
   std::unique_ptr<surfaceScalarField> memory;        // flux carried over from the last step, m3/s
   std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
+  std::unique_ptr<surfaceScalarField> free_side;     // project_velocity.cpp, of the correction before, N/m
   bool viscous = false;                              // nu dt/dx2 > 1/4, with particles: project_velocity
 };
 

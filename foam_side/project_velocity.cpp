@@ -21,11 +21,17 @@
 // to bear, leaves of the push. It is the incremental projection (Goda, J. Comput. Phys. 30 (1979) 76), stable
 // for any nu dt/dx2. Where another correction follows, the pressure also takes what the stress needs,
 //
-//   p = p* + psi - (mu/eps) (div(phi*) + d(eps)/dt),   mu: where it jumps, that of the thinner side
+//   p = p* + psi + mu' div((w - w*)/e),   mu' = mu/(1 + mu |grad e|^2/(eps A')),   mu: where it jumps, that
+//   of
+//                                         the thinner side
 //
 // without which pressure travels by a cell or so per step (Timmermans et al., Int. J. Numer. Methods Fluids
-// 22 (1996) 673). Each side of a face has its own share of psi, -(A_0 + C)/eps2 (w - w*), and of p* what
-// face_drag.hpp says.
+// 22 (1996) 673). A push of p must not be answered by more than twice itself. Fluid that moves as a whole
+// through a jump of e brings a flux that is not continuous and no stress: what resists it is A', inertia and
+// drag, its own or a neighbour's to which viscosity ties the cell, and mu' |grad e|^2 is to stay below that.
+// Each side of a face has its own share of psi, -(A_0 + C)/eps2 (w - w*), and of p* what face_drag.hpp says.
+// What holds a bed changes the pressure on the free side of its edge with it; there no more of the drag
+// counts than what viscosity resists a push with (drag_that_answers).
 
 #include <algorithm>
 #include <vector>
@@ -95,12 +101,15 @@ scalarField viscosity_of_thinner_side(const Flow& flow) {
   return least;
 }
 
-/// Inertia that a cell answers with, kg/(m3 s): its own, or that of a heavier neighbour to which viscosity
-/// ties it, a I/(a + I).
-volScalarField tied_inertia(const Flow& flow) {
+tmp<scalarField> own_inertia(const Flow& flow) {
+  return void_fraction(flow) * flow.rho.primitiveField() / flow.time.deltaTValue();
+}
+
+/// What a cell answers with, kg/(m3 s): its own resistance, or that of a neighbour with more to which
+/// viscosity ties it, a I/(a + I).
+volScalarField tied(const Flow& flow, scalarField inertia) {
   const Foam::fvMesh& mesh = flow.mesh;
   const scalarField& volume = mesh.V();
-  scalarField inertia(void_fraction(flow) * flow.rho.primitiveField() / flow.time.deltaTValue());
   const volScalarField mu(with_boundary("mu", mesh, Foam::dimDynamicViscosity, dynamic_viscosity(flow)()));
   const surfaceScalarField stress(fvc::interpolate(mu) * mesh.nonOrthDeltaCoeffs() * mesh.magSf());
   const auto tie = [](scalar& here, scalar a, scalar there) {
@@ -124,6 +133,98 @@ volScalarField tied_inertia(const Flow& flow) {
     }
   }
   return with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, inertia);
+}
+
+/// mean(C/eps2) of a face, as far as a change of it pushes neither side by more than what resists it there:
+/// inertia, drag, and the other side's drag to which viscosity ties it.
+surfaceScalarField drag_that_answers(const Flow& flow, const scalarField& own) {
+  const Foam::fvMesh& mesh = flow.mesh;
+  const FaceDrag& c = *flow.pressure_system.face_drag;
+  const scalarField& volume = mesh.V();
+  surfaceScalarField drag(c.resistance / c.response);
+  const scalarField eps(void_fraction(flow));
+  const volScalarField mu(
+      with_boundary("mu", mesh, Foam::dimDynamicViscosity, scalarField(eps * dynamic_viscosity(flow))));
+  const volScalarField resists(with_boundary("inertia", mesh, Foam::dimDensity / Foam::dimTime, own));
+  const volScalarField held(
+      with_boundary("held", mesh, Foam::dimDensity / Foam::dimTime, flow.source->coefficient.field()));
+  const surfaceScalarField stress(fvc::interpolate(mu) * mesh.nonOrthDeltaCoeffs() * mesh.magSf());
+  const auto limit = [](scalar& here, scalar least, scalar e, scalar response) {
+    here = std::min(here, 2 * least / e * (1 / e + response * here));  // 2: half of a face is the cell's
+  };
+  const auto resisted = [](scalar inertia, scalar a, scalar there) {
+    return inertia + a * there / (a + there + Foam::VSMALL);
+  };
+  forAll(mesh.owner(), face) {
+    const label owner = mesh.owner()[face], neighbour = mesh.neighbour()[face];
+    const scalar least =
+        std::min(resisted(resists[owner], stress[face] / volume[owner], held[neighbour]),
+                 resisted(resists[neighbour], stress[face] / volume[neighbour], held[owner]));
+    limit(drag[face], least, c.eps_f[face], c.response[face]);
+  }
+  const volScalarField volumes(with_boundary("volumes", mesh, Foam::dimVolume, volume));
+  forAll(drag.boundaryField(), patch) {
+    const Foam::fvPatchScalarField& at = resists.boundaryField()[patch];
+    if (!at.coupled()) continue;
+    const scalarField here(at.patchInternalField()), there(at.patchNeighbourField());
+    const Foam::fvPatchScalarField &drag_at = held.boundaryField()[patch],
+                                   &v = volumes.boundaryField()[patch];
+    const scalarField held_here(drag_at.patchInternalField()), held_there(drag_at.patchNeighbourField());
+    const scalarField v_here(v.patchInternalField()), v_there(v.patchNeighbourField());
+    Foam::fvsPatchScalarField& limited = drag.boundaryFieldRef()[patch];
+    forAll(limited, face) {
+      const scalar a = stress.boundaryField()[patch][face];
+      const scalar least = std::min(resisted(here[face], a / v_here[face], held_there[face]),
+                                    resisted(there[face], a / v_there[face], held_here[face]));
+      limit(limited[face], least, c.eps_f.boundaryField()[patch][face],
+            c.response.boundaryField()[patch][face]);
+    }
+  }
+  return drag;
+}
+
+/// Beside the edge of a stiff bed the gradient of the pressure on the free side, grad p.S + mean(C/eps2) phi
+/// but for what a step does not change, follows from the balance of the face with the stress of before, as if
+/// the cell's neighbours were at rest. They are not: it takes the part of the change that viscosity can
+/// answer to.
+void slow_free_sides(Flow& flow, const scalarField& inertia) {
+  PressureSystem& system = flow.pressure_system;
+  const FaceDrag& c = *system.face_drag;
+  const surfaceScalarField drag(c.resistance / c.response);
+  surfaceScalarField found(fvc::snGrad(flow.p_rgh) * flow.mesh.magSf() + drag * flow.phi);
+  if (system.free_side && flow.pimple.corrPISO() > 1) {
+    const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
+    const surfaceScalarField lag((drag - drag_that_answers(flow, inertia)) / (drag + tiny) *
+                                 (*system.free_side - found));
+    const scalarField eps(void_fraction(flow));
+    gradient_at_kinks(flow) +=
+        reconstructed(flow, c.eps_f * lag) / eps -
+        flow.source->coefficient.field() / Foam::sqr(eps) * reconstructed(flow, lag / (drag + tiny));
+    found += lag;
+  }
+  system.free_side = std::make_unique<surfaceScalarField>("freeSide", found);
+}
+
+/// mu' above, Pa s.
+scalarField viscosity_for_pressure(const Flow& flow, const scalarField& resistance) {
+  scalarField mu(viscosity_of_thinner_side(flow));
+  if (!flow.porosity) return mu;
+  const volScalarField& eps = flow.porosity->eps;
+  const surfaceScalarField& e = flow.pressure_system.face_drag->eps_f;
+  const tmp<volVectorField> slope = fvc::surfaceIntegrate(flow.mesh.Sf() * e);
+  return mu / (1 + mu * Foam::magSqr(slope().primitiveField()) /
+                       (eps.primitiveField() * tied(flow, resistance).primitiveField()));
+}
+
+/// mu' S above, Pa. S: half of the divergence with that of the neighbours; what changes sign from cell to
+/// cell in all directions is known to the faces alone, which answer to it twice as much as a smooth one.
+scalarField pressure_of_stress(const Flow& flow, const surfaceScalarField& gained,
+                               const scalarField& resistance) {
+  const tmp<volScalarField> divergence = fvc::div(gained / flow.pressure_system.face_drag->eps_f);
+  const volScalarField spread(
+      with_boundary("spread", flow.mesh, divergence().dimensions(), divergence().primitiveField()));
+  return viscosity_for_pressure(flow, resistance) *
+         (0.5 * (spread + fvc::average(fvc::interpolate(spread))))().primitiveField();
 }
 
 /// Where the case gives the pressure it may depend on the velocity (a total pressure): it stays that of the
@@ -153,6 +254,7 @@ void project_velocity(Flow& flow) {
   const bool last = flow.pimple.corrPISO() == flow.pimple.nCorrPISO();
   for (Foam::fvPatchScalarField& at : flow.p_rgh.boundaryFieldRef())
     if (at.fixesValue() && !at.coupled()) at.evaluate();
+  if (!find_gradient_at_kinks(flow)) predicted_flux(flow);  // at the start: what it has there already
   const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
   solve_momentum(flow);
   if (flow.pimple.finalIter()) {
@@ -162,17 +264,16 @@ void project_velocity(Flow& flow) {
   const Foam::vectorField left(residual(flow, before));
 
   const scalarField eps(void_fraction(flow));
-  const scalarField inertia(eps * flow.rho.primitiveField() / flow.time.deltaTValue() +
-                            flow.source->coefficient.field());  // A_0 + C
+  const scalarField own(own_inertia(flow));
+  const scalarField inertia(own + flow.source->coefficient.field());  // A_0 + C
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),
                                                 scalarField(inertia / Foam::sqr(eps))));
   const surfaceScalarField of_inertia(1.0 / fvc::interpolate(resistance));  // m_0
-  const surfaceScalarField mobility(FaceDrag(flow, tied_inertia(flow), system.force).mobility());
+  const surfaceScalarField mobility(FaceDrag(flow, tied(flow, own), system.force).mobility());
   const surfaceScalarField predicted(predicted_flux(flow));
   flow.phi = predicted;
   scalarField rate(flow.mesh.nCells(), 0.0);
   if (flow.porosity) rate = rate_to_serve(flow);
-  const scalarField excess(fvc::div(predicted)().primitiveField() + rate);
   const tmp<volScalarField> potential = fit_flux(
       flow, flow.phi, mobility, &rate, flow.mesh.solver(flow.p_rgh.select(last && flow.pimple.finalIter())));
 
@@ -188,7 +289,8 @@ void project_velocity(Flow& flow) {
   // that.
   gradient_at_kinks(flow) += reconstructed(flow, gained / mobility) - of_potential;
   flow.p_rgh += potential();
-  if (!last) flow.p_rgh.primitiveFieldRef() -= viscosity_of_thinner_side(flow) / eps * excess;
+  slow_free_sides(flow, inertia);
+  if (!last) flow.p_rgh.primitiveFieldRef() += pressure_of_stress(flow, gained, inertia);
   renew_boundary_pressure(flow);
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
