@@ -224,9 +224,10 @@ TEST_P(ThickLiquid, BedBetweenSlipWalls) {
     const char* outer;
     bool by_pressure;  // what drives the flow
   };
-  for (const Variant& variant : {Variant{0, "1", false}, Variant{0, "3", false}, Variant{1, "1", false},
-                                 Variant{1e2, "1", false}, Variant{1e2, "5", false}, Variant{1e6, "1", false},
-                                 Variant{1e2, "1", true}, Variant{1e6, "3", true}}) {
+  for (const Variant& variant :
+       {Variant{0, "1", false}, Variant{0, "3", false}, Variant{1, "1", false}, Variant{1e2, "1", false},
+        Variant{1e2, "5", false}, Variant{1e6, "1", false}, Variant{1e-2, "1", true}, Variant{1e2, "1", true},
+        Variant{1e6, "3", true}}) {
     const double lost = 0.02 * variant.drag * stress * w / (eps_bed * eps_bed);  // Pa
     Settings settings{{"walls_U", "{ type slip; }"},
                       {"bottom_U", "{ type fixedValue; value uniform (0 0 0.05); }"},
@@ -270,7 +271,10 @@ TEST_P(ThickLiquid, BedBetweenSlipWalls) {
               << " outer correctors: largest speed " << fastest << " m/s, in the end off by " << worst
               << ", drag " << (of_drag > 0 ? held / of_drag : 1) << " of the exact one\n";
     EXPECT_LT(fastest, 1.15 * w / eps_bed);
-    EXPECT_LT(worst, 0.4);
+    // Weak drag leaves much of the pressure to the stress at the jumps.
+    if (!variant.by_pressure || variant.drag >= 1e2) {
+      EXPECT_LT(worst, 0.4);
+    }
     if (variant.drag >= 1e2) {
       EXPECT_NEAR(held / of_drag, 1, 0.0028);
     }
