@@ -24,6 +24,8 @@ THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}
 DRIVEN = {"^pair.driven_channel$": PAIR}
 HALF = {"^pair.half_submerged$": PAIR}
+CONTINUED = {"^pair.continued$": PAIR}
+REFUSALS = {"^pair.refusals$": PAIR}
 FILMS = {"^unit_lubrication$": ["unit_lubrication"], r"^mock_dem_lubrication\..*\.[12]$": ["mock_dem_lubrication"], "^mock_dem_films_ranks$": ["mock_dem_lubrication"],
          r"^mock_dem_film_walls\.": ["mock_dem_film_walls"]}
 CLUMPS = {r"^mock_dem_clumps\.": ["mock_dem_clumps"]}
@@ -337,6 +339,14 @@ FAULTS = [
     ("coupler/cli/batch_script.cpp", "if [ -e {} ]; then", "if [ -d {} ]; then", JOB),
     ("coupler/cli/batch_script.cpp", "    exec {}\\nfi", "    {}\\n    exit\\nfi", JOB),
     ("coupler/cli/slurm_options.cpp", "option.size() < 2 || option[0] != '-' ||", "option.size() < 2 ||", JOB),
+    ("coupler/cli/slurm_options.cpp", "if (*limit <= static_cast<double>(lead))", "if (false)", JOB),
+    ("coupler/output/verdict.cpp", "if (worst <= most_of_everything) return;", "return;", VERDICT),
+    ("coupler/cli/redistribute.cpp", "decomposePar -force -copyUniform -time", "decomposePar -force -time", CONTINUED),
+    ("foam_side/restart.cpp", "  write_source_states(flow);\n", "", CONTINUED),
+    ("foam_side/case_sources.cpp", "stream.precision(17);", "", CONTINUED),
+    ("foam_side/fluid_books.cpp", "force += (*free & flow.U)", "if (false) force += (*free & flow.U)", DRIVEN),
+    ("foam_side/open_flow.cpp", "  require_sources_to_act(*flow);\n", "", REFUSALS),
+    ("foam_side/case_numbers.cpp", "  require_loops(solution, particles);\n", "", REFUSALS),
     ("coupler/cli/launch.cpp", "watch.on_line(printable_lines(text));", "watch.on_line(text);", LAUNCH),
     ("coupler/cli/launch.cpp", "end.code == 3 && end.user_asked", "false", LAUNCH),
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
