@@ -16,6 +16,7 @@
 
 #include "foam_side/fluid_books.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "foam_side/extras.hpp"
@@ -32,13 +33,18 @@ class RegisteredBooks : public Foam::regIOobject {
                                    Foam::IOobject::NO_WRITE)) {}
   bool writeData(Foam::Ostream&) const override { return true; }
   FluidBooks books;
+  std::unique_ptr<Foam::fvVectorMatrix> free_equation;  // only where fvOptions may constrain it
 };
 
-FluidBooks& books_of(const Flow& flow) {
+RegisteredBooks& registered_books(const Flow& flow) {
   const Foam::objectRegistry& registry = flow.mesh.thisDb();
   if (!registry.foundObject<RegisteredBooks>("fluidBooks"))
     Foam::regIOobject::store(new RegisteredBooks(flow.mesh));
-  return registry.lookupObjectRef<RegisteredBooks>("fluidBooks").books;
+  return registry.lookupObjectRef<RegisteredBooks>("fluidBooks");
+}
+
+FluidBooks& books_of(const Flow& flow) {
+  return registered_books(flow).books;
 }
 
 /// Faces that are the end of the fluid, not a cut.
@@ -112,9 +118,14 @@ void note_explicit_stress(Flow& flow, const volScalarField& density) {
   books_of(flow).explicit_stress = to_vec3(force);
 }
 
+void note_free_equation(Flow& flow, const Foam::fvVectorMatrix& momentum) {
+  registered_books(flow).free_equation = std::make_unique<Foam::fvVectorMatrix>(momentum);
+}
+
 void note_boundary_stress(Flow& flow) {
   const tmp<volScalarField> viscosity = flow.turbulence->nuEff();
-  const Foam::fvVectorMatrix& momentum = *flow.pressure_system.momentum;
+  const auto& free = registered_books(flow).free_equation;
+  const Foam::fvVectorMatrix& momentum = free ? *free : *flow.pressure_system.momentum;
   vector shear = vector::zero, through = vector::zero;
   forAll(flow.mesh.boundary(), patch) {
     if (flow.mesh.boundary()[patch].coupled() || flow.mesh.boundary()[patch].size() == 0) continue;
@@ -131,9 +142,13 @@ void note_boundary_stress(Flow& flow) {
 }
 
 void note_sources(Flow& flow) {
-  if (!flow.pressure_system.sources) return;
-  const tmp<volVectorField> force = *flow.pressure_system.sources & flow.U;
-  books_of(flow).step_sources = to_vec3(Foam::sum(flow.mesh.V().field() * force().primitiveField()));
+  const PressureSystem& system = flow.pressure_system;
+  if (!system.sources) return;
+  Foam::vectorField force((*system.sources & flow.U)().primitiveField());
+  // What a constrained equation has less than the one that was assembled, the constraint has to give.
+  if (const auto& free = registered_books(flow).free_equation)
+    force += (*free & flow.U)().primitiveField() - (*system.momentum & flow.U)().primitiveField();
+  books_of(flow).step_sources = to_vec3(Foam::sum(flow.mesh.V().field() * force));
 }
 
 void correct_by_sources(Flow& flow, const scalarField& answer) {

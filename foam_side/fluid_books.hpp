@@ -32,10 +32,14 @@ void note_liquid_flux(Flow& flow, const surfaceScalarField& flux);
 /// Notes the part of the stress in the momentum equation of this step that does not wait for its velocity.
 void note_explicit_stress(Flow& flow, const volScalarField& density);
 
+/// Notes the step's momentum equation before fvOptions constrain it. With particles.
+void note_free_equation(Flow& flow, const Foam::fvVectorMatrix& momentum);
+
 /// Notes what the step's momentum equation has at the boundary with the present velocity.
 void note_boundary_stress(Flow& flow);
 
-/// Notes what fvOptions give the step's momentum equation with the present velocity. With particles.
+/// Notes what fvOptions give the step's momentum equation with the present velocity, and what holds it where
+/// they constrain it. With particles.
 void note_sources(Flow& flow);
 
 /// Lets fvOptions change the velocity, and notes what that takes. answer: force per change of the velocity,

@@ -2,6 +2,7 @@
 // Reads an interFoam case: 0/ (U, p_rgh, alpha.*), constant/ (transportProperties, turbulenceProperties,
 // g, hRef), system/ (controlDict, fvSchemes, fvSolution with PIMPLE and alpha.*).
 
+#include "foam_side/case_sources.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/vectors.hpp"
 
@@ -74,6 +75,7 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
   auto flow = std::make_unique<Flow>(args, scene, continued);
   make_extras(*flow);
   refuse_what_is_not_done(*flow);
+  require_sources_to_act(*flow);
   if (refinement) {
     flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
     if (!continued) refine_start(*flow);

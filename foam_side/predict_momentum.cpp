@@ -20,6 +20,7 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/viscous_rate.hpp"
 
 namespace demvof {
 
@@ -75,6 +76,7 @@ void add_sources(Flow& flow, Foam::fvVectorMatrix& momentum) {
 /// each correction solves the stress with it, eps/(A_0 + C).
 void constrain(Flow& flow, Foam::fvVectorMatrix& momentum) {
   if (!extras(flow).sources_of_momentum) return;
+  if (flow.source) note_free_equation(flow, momentum);
   extras(flow).sources.constrain(momentum);
   if (!flow.source) return;
   Foam::fvVectorMatrix answering(momentum);
@@ -132,24 +134,10 @@ tmp<surfaceScalarField> relax_momentum(Flow& flow, Foam::fvVectorMatrix& momentu
   return relaxation_memory(flow, unrelaxed, momentum.A());
 }
 
-/// nu dt/dx2, largest of all faces.
-double viscous_number(const Flow& flow) {
-  const tmp<volScalarField> nu = flow.turbulence->nuEff();
-  const surfaceScalarField& inverse = flow.mesh.nonOrthDeltaCoeffs();
-  double largest = 0;
-  forAll(flow.mesh.owner(), face) {
-    const double between = std::max(nu()[flow.mesh.owner()[face]], nu()[flow.mesh.neighbour()[face]]);
-    largest = std::max(largest, between * inverse[face] * inverse[face]);
-  }
-  return Foam::returnReduce(largest, Foam::maxOp<double>()) * flow.time.deltaTValue();
-}
-
 /// Whether to solve the equation before the pressure corrections.
 bool predicts(Flow& flow) {
-  // Three corrections would leave a fifth of the stress open.
-  constexpr double most_of_corrections = 0.25;
   if (!flow.source && flow.pimple.momentumPredictor()) return true;
-  const double number = viscous_number(flow);
+  const double number = viscous_rate(flow) * flow.time.deltaTValue();
   const bool viscous = flow.source && number > most_of_corrections;
   flow.pressure_system.viscous = viscous;
   if (!viscous && find_gradient_at_kinks(flow)) gradient_at_kinks(flow) = Foam::Zero;

@@ -17,6 +17,7 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
+#include "foam_side/case_sources.hpp"
 #include "foam_side/gathered_state.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
@@ -288,6 +289,7 @@ auto part_of(const json& state, const Read& read) {
 
 void write_fields(Flow& flow) {
   const bool opened = flow.time.writeNow();
+  write_source_states(flow);
   require_file(time_folder(flow) / "uniform" / "time");
   require_files(flow.time, flow.time.timeName());  // names the file
   if (!opened)

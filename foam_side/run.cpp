@@ -20,6 +20,8 @@
 #include "coupler/scene/plan_windows.hpp"
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/bridge.hpp"
+#include "foam_side/case_numbers.hpp"
+#include "foam_side/case_sources.hpp"
 #include "foam_side/divided_cells.hpp"
 #include "foam_side/extras.hpp"
 #include "foam_side/fluid_books.hpp"
@@ -32,6 +34,7 @@
 #include "foam_side/run_record.hpp"
 #include "foam_side/scene_facts.hpp"
 #include "foam_side/step_fluid.hpp"
+#include "foam_side/step_limits.hpp"
 
 namespace demvof {
 
@@ -238,6 +241,13 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.rayleigh_time = particles.value("rayleigh_time", 0.0);
 }
 
+/// Of the fluid, s; without windows that of the start. window: the longest.
+double longest_step(const Flow& flow, double window) {
+  const StepLimits limits(flow.time.controlDict());
+  if (window <= 0) return flow.time.deltaTValue();
+  return std::min(window, limits.adjust ? limits.step : flow.time.deltaTValue());
+}
+
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
@@ -259,6 +269,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     throw InputError(parameters.file + ": the run is made without particles, but dem_side was started, too");
   const Foam::argList& args = *open_case(options.out / "fluid", world);
   install_signal_handlers();  // OpenFOAM has set its own
+  require_numbers_that_can_be(case_time(args), paired);
   SceneFacts facts = fluid_facts(args);
 
   std::optional<FluidEnd> link;
@@ -288,9 +299,13 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
   if (parameters.gravity) flow->gravity = *parameters.gravity;
+  require_solvers(*flow, longest_step(*flow, paired ? parameters.coupling.longest_window() : 0));
+  const std::string forget = sources_that_forget(*flow);
+  if (start && !forget.empty()) throw InputError("--continue: " + forget + "; start a new run");
   for (const std::string& said :
        {slope_without_effect(flow->mesh, flow->gravity),
-        gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow)})
+        gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow),
+        paired ? forget : "", paired ? unknown_sources(*flow) : ""})
     if (!said.empty()) scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
@@ -310,6 +325,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
         "the fluid has nowhere to go; give the case an opening, or scene.porosity: off");
   if (scene.interchange == PhaseInterchange::replacement)
     require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
+  flow->scene.advice = scene.advice;
   if (options.check) {
     if (paired && scene.mesh_moves) {  // a trial step shows walls that do not go along
       ++flow->time;

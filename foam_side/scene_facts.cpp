@@ -18,13 +18,6 @@ namespace {
 using Foam::IOobject;
 using Foam::word;
 
-/// Lives until the program ends: with it the libraries that controlDict names would be unloaded, and what
-/// they have registered in OpenFOAM's tables points to nothing then.
-const Foam::Time& case_time(const Foam::argList& args) {
-  static const Foam::Time* const time = new Foam::Time(Foam::Time::controlDictName, args);
-  return *time;
-}
-
 Foam::dictionary read_dictionary(const Foam::Time& time, const Foam::fileName& folder, const word& name) {
   return Foam::IOdictionary(IOobject(name, folder, time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
 }
@@ -79,10 +72,10 @@ scalar property(const Foam::dictionary& dictionary, const char* key, const Foam:
                 double lowest, double highest, const char* unit) {
   const scalar value = dimensionedScalar(key, dimensions, dictionary).value();
   if (value >= lowest && value <= highest) return value;
-  const Foam::fileName file = Foam::fileName(dictionary.name());
-  throw InputError(fmt::format("{}:{}: {}: {:g} is not allowed; give a number from {:g} to {:g} ({})", file,
-                               dictionary.lookupEntry(key, Foam::keyType::LITERAL).startLineNumber(), key,
-                               value, lowest, highest, unit));
+  throw InputError(fmt::format(
+      "constant/transportProperties:{}: {}: {:g} is not allowed; give a number from {:g} to {:g} ({})",
+      dictionary.lookupEntry(key, Foam::keyType::LITERAL).startLineNumber(), key, value, lowest, highest,
+      unit));
 }
 
 void require_fluid(const Foam::dictionary& transport, const word& phase) {
@@ -93,6 +86,13 @@ void require_fluid(const Foam::dictionary& transport, const word& phase) {
 }
 
 }  // namespace
+
+// Lives until the program ends: with it the libraries that controlDict names would be unloaded, and what
+// they have registered in OpenFOAM's tables points to nothing then.
+const Foam::Time& case_time(const Foam::argList& args) {
+  static const Foam::Time* const time = new Foam::Time(Foam::Time::controlDictName, args);
+  return *time;
+}
 
 SceneFacts fluid_facts(const Foam::argList& args) {
   const Foam::Time& time = case_time(args);

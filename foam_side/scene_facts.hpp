@@ -10,6 +10,9 @@ namespace demvof {
 /// field exists. Collective over the fluid side. Throws Foam::error on a case that cannot be read.
 SceneFacts fluid_facts(const Foam::argList& args);
 
+/// The case's clock and controlDict, alone.
+const Foam::Time& case_time(const Foam::argList& args);
+
 /// Gravity of the case, m/s2.
 Vec3 case_gravity(const Foam::argList& args);
 /// What to say when the run does not begin with that; empty when it does.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "coupler/base/errors.hpp"
 #include "coupler/cli/commands.hpp"
 #include "coupler/cli/commands_in_case.hpp"
 #include "coupler/cli/launch.hpp"
@@ -36,6 +37,31 @@ class TemporaryFolder {
   fs::path path_;
 };
 
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// What is said of the copy, which is gone when it is read, said of the files that it was made of.
+class OfTheUser {
+ public:
+  OfTheUser(const CaseParameters& parameters, const RunFolder& folder)
+      : fluid_(beside_case_file(parameters, parameters.fluid.case_folder)), folder_(folder) {}
+
+  std::string operator()(const std::string& text) const {
+    const std::string copy = folder_.fluid().string(), own = fluid_.string();
+    std::string said = text;
+    if (fs::is_directory(fluid_ / "0.orig")) said = with_replaced(said, copy + "/0/", own + "/0.orig/");
+    said = with_replaced(said, copy, own);
+    return with_replaced(said, folder_.path().string(), "<run>");
+  }
+
+ private:
+  fs::path fluid_;
+  const RunFolder& folder_;
+};
+
 }  // namespace
 
 int check_command(const CaseOptions& options) {
@@ -50,10 +76,16 @@ int check_command(const CaseOptions& options) {
   for (const std::string& assignment : options.overrides)
     arguments.insert(arguments.end(), {"--set", assignment});
   const LaunchCommand command = launch_command(parameters, arguments);
-  prepare_case(parameters, folder, false, [](const std::string& what) { fmt::print("{}\n", what); });
+  const OfTheUser of_the_user(parameters, folder);
+  const auto say = [&of_the_user](const std::string& what) { fmt::print("{}\n", of_the_user(what)); };
+  try {
+    prepare_case(parameters, folder, false, say);
+  } catch (const InputError& error) {
+    throw InputError(of_the_user(error.what()));
+  }
 
   Watch watch;
-  watch.on_line = [](const std::string& line) { fmt::print("{}\n", line); };
+  watch.on_line = say;
   watch.on_tick = [] {};
   const int code = launch(command, watch).code;
   fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");

@@ -96,7 +96,8 @@ void redistribute(const CaseParameters& parameters, const RunFolder& folder, con
       times(before > 1 ? folder.fluid() / part_of_rank(0) : folder.fluid(), point);
   gather(folder.fluid(), made, before, at, run);
   if (ranks > 1) {
-    decompose(made, ranks, fmt::format("decomposePar -force -time {}", fmt::join(at, ",")), run, say);
+    decompose(made, ranks, fmt::format("decomposePar -force -copyUniform -time {}", fmt::join(at, ",")), run,
+              say);
     for (const std::string& time : at) fs::remove_all(made / time);
   }
   fs::copy_file(folder.fluid() / "system" / "controlDict", made / "system" / "controlDict",

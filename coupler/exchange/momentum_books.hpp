@@ -89,6 +89,8 @@ class MomentumBooks {
 
   /// Worst relative error of each component so far, -.
   const Vec3& worst() const { return worst_; }
+  /// What that is relative to, kg m/s.
+  double scale() const { return scale_; }
   /// Sums over the run, N s.
   const OutsideImpulses& impulses() const { return impulses_; }
   long windows() const { return windows_; }

@@ -27,7 +27,8 @@ void weigh(Verdict& verdict, const std::string& key, double value, double limit,
 
 /// Momentum of everything, which has no limit: meshes of unequal cells open it by themselves.
 void weigh_everything(Verdict& verdict, const RunResults& results) {
-  if (!results.momentum || results.momentum->judged() == 0) return;
+  constexpr double at_rest = 1e-15;  // kg m/s: round-off against round-off
+  if (!results.momentum || results.momentum->judged() == 0 || results.momentum->scale() < at_rest) return;
   const Vec3& errors = results.momentum->worst();
   const double worst = std::max({errors.x, errors.y, errors.z});
   if (worst <= most_of_everything) return;

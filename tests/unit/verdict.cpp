@@ -60,12 +60,12 @@ TEST(Verdict, BooksThatDoNotCloseAreAFailure) {
 }
 
 TEST(Verdict, MomentumOfEverythingThatIsOpenIsAWarning) {
-  const auto said = [](double error, bool changed = false) {
+  const auto said = [](double error, bool changed = false, double size = 1) {
     RunResults results;
     results.momentum.emplace(Vec3{});
     OutsideImpulses weight;
-    weight.fluid_weight = {0, 0, -1};
-    results.momentum->close(Vec3{error, 0, -1}, weight, changed);
+    weight.fluid_weight = {0, 0, -size};
+    results.momentum->close(size * Vec3{error, 0, -1}, weight, changed);
     const Verdict verdict = judged(results);
     EXPECT_FALSE(verdict.failure);
     return verdict.warnings;
@@ -75,6 +75,7 @@ TEST(Verdict, MomentumOfEverythingThatIsOpenIsAWarning) {
   EXPECT_EQ(said(nan).size(), 1u);
   EXPECT_TRUE(said(3e-4).empty());
   EXPECT_TRUE(said(0.9, true).empty()) << "a window that is not judged";
+  EXPECT_TRUE(said(0.9, false, 1e-19).empty()) << "nothing moves";
 }
 
 TEST(Verdict, VolumesAreAWarningAndThenAFailure) {

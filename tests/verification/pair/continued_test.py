@@ -21,6 +21,8 @@ BOUND = 2e-7  # of a quantity's largest value; the pressure solver stops at 1e-1
 # Sums over ranks differ in their last digit, and with that the pressure solver may stop an iteration earlier: what it
 # leaves has to be less than what is compared.
 SOLVED = {"tolerance": 1e-13, "relative_tolerance": 1e-6}
+DRIVEN = ("FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }\n"
+          "drive { type meanVelocityForce; selectionMode all; fields (U); Ubar (0 0.1 0); relaxation 0.1; }\n")
 DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 
 
@@ -107,6 +109,23 @@ class Continued(unittest.TestCase):
         self.case(sections={"fluid": {"refinement": {"levels": 1}}})
         part = self.run_to("parts", 0.005)
         self.check_refused(part, "on a mesh that changes it has to stay", "--fluid-ranks", "2")
+
+    def test_driven(self):
+        """A mean velocity force has its gradient from the steps before; on one rank, and on one, two, one."""
+        sides = {side: Cyclic() if side[0] == "y" else Open() if side == "z+" else Wall() for side in SIDES}
+        self.case(sides=sides, extra_files={"fluid/constant/fvOptions": DRIVEN}, **SOLVED)
+        self.check_same(bound=1e-300)
+        whole, name = FOLDER / self._testMethodName / "whole", "uniform/driveProperties"
+        files = json.loads((whole / "restart" / "latest.json").read_text())["files"]
+        self.assertIn(f"fluid/0.03/{name}", files)
+        self.run_to("two", 0.01)
+        self.run_to("two", 0.02, "--continue", "--fluid-ranks", "2")
+        parts = FOLDER / self._testMethodName / "two"
+        files = json.loads((parts / "restart" / "latest.json").read_text())["files"]
+        for rank in range(2):
+            self.assertIn(f"fluid/processor{rank}/0.02/{name}", files)
+        self.run_to("two", 0.03, "--continue")
+        self.compare(whole, parts, bound=9e-8, times=False)  # as much as one and two ranks differ that do not stop
 
     def test_insertion(self):
         """Places, sizes and times of what the script puts in."""

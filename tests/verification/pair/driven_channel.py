@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A thick liquid with a neutral bead between two walls, driven by fvOptions: a mean velocity force, and a source of given
-strength. What drives it, the profile, and the books are those of plane Poiseuille flow on the mesh (walls half a cell away).
+strength. What drives it, the profile, and the books are those of plane Poiseuille flow on the mesh (walls half a cell away). And liquids
+whose velocity constraints of fvOptions hold, everywhere, in one cell, or where it is fast: what holds it is in the books.
 
 Usage: driven_channel.py DEMVOF"""
 import re
@@ -24,13 +25,25 @@ def poiseuille(viscosity):
     return MEAN / per_gradient.mean(), MEAN * per_gradient / per_gradient.mean()
 
 
-def channel(name, number, options):
+CONSTRAINTS = {
+    "everywhere": "selectionMode all; fieldValues { U (0.2 0 0); }",
+    "in a cell": "selectionMode points; points ((0.011 0.011 0.009)); fieldValues { U (0.2 0.1 0.05); }",
+}
+
+
+def constrained(entries, kind="vectorFixedValueConstraint"):
+    return lambda _: f"hold {{ type {kind}; {entries} }}\n"
+
+
+def channel(name, number, options, windows=None, velocity=(0, 0, 0)):
     """number: nu dt/dx2."""
     window = 2e-3
     nu = number * (HEIGHT / CELLS)**2 / window
     end = window * round(2 * HEIGHT**2 / nu / window + 20) if number > 0.5 else 0.8
+    if windows:
+        end = windows * window
     case = BoxCase(scratch(f"driven_channel/{name}"), (0.02, 0.02, HEIGHT), (8, 8, CELLS), (2, 2, 4), end, window,
-                   gravity=(0, 0, 0), liquid=(DENSITY, nu), dem_step=window / 10, output_interval=end, longest_step=window,
+                   gravity=(0, 0, 0), liquid=(DENSITY, nu), dem_step=window / 10, output_interval=end, longest_step=window, velocity=velocity,
                    particles=[Particle((0.01, 0.01, 0.02), 1e-3, DENSITY)],
                    extra_files={"fluid/constant/fvOptions": HEADER + options(nu * DENSITY)})
     case.sides = {side: Wall() if side[0] == "z" else Cyclic() for side in case.sides}
@@ -63,6 +76,14 @@ def main():
         if gradient_off:
             said = re.findall(r"pressure gradient = (\S+)", (run.folder / "fluid.log").read_text())
             record.at_most(f"{name}: gradient against that of the flow", abs(float(said[-1]) / gradient - 1), gradient_off)
+    for number in (0.1, 3.2):
+        for place, entries in CONSTRAINTS.items():
+            run = channel(f"held_{place.replace(' ', '_')}_{number}", number, constrained(entries), windows=20)[0].run(options.demvof)
+            record.at_least(f"velocity held {place}, nu dt/dx2 {number}: what holds it over the momentum it brings",
+                            run.results["momentum"]["impulses"]["sources"][0] / run.history["fluid_momentum_x"][-1], 1)
+        damping = constrained("selectionMode all; UMax 0.05;", "velocityDampingConstraint")
+        run = channel(f"damped_{number}", number, damping, windows=20, velocity=(0.2, 0, 0))[0].run(options.demvof)
+        record.at_least(f"velocity damped, nu dt/dx2 {number}: what damps it, N s", -run.results["momentum"]["impulses"]["sources"][0], 5e-7)
     momentum_of_everything(record, 4.8e-13)
     raise SystemExit(record.write())
 

@@ -100,6 +100,61 @@ def with_library():
     return replaced(box("library").write(), "fluid/system/controlDict", "startTime 0", 'libs ("libfieldFunctionObjects.so"); startTime 0')
 
 
+def with_sources(name, options):
+    return box(name, extra_files={"fluid/constant/fvOptions": HEADER.format("fvOptions") + options}).write()
+
+
+def source(kind, entries, extra="selectionMode all;"):
+    return f"s {{ type {kind}; {extra} {entries} }}\n"
+
+
+def with_gradient_of_each_cell():
+    """What it keeps is its own."""
+    zone = HEADER.format("topoSetDict") + """actions (
+    { name f; type faceSet; action new; source boxToFace; box (0.019 0 0) (0.021 1 1); }
+    { name f; type faceZoneSet; action new; source setToFaceZone; faceSet f; } );
+"""
+    options = source("directionalPressureGradientExplicitSource",
+                     "model constant; pressureDrop 1; flowDir (1 0 0); faceZone f; fields (U);")
+    return box("gradients", prepare=["blockMesh", "topoSet"],
+               extra_files={"fluid/system/topoSetDict": zone, "fluid/constant/fvOptions": HEADER.format("fvOptions") + options}).write()
+
+
+RATES = "volumeMode specific; injectionRateSuSp"
+SOLUTION, CONTROL, TRANSPORT = "fluid/system/fvSolution", "fluid/system/controlDict", "fluid/constant/transportProperties"
+# name: (file, what stands there, what in its place, what has to be said): numbers that check once called ready
+NUMBERS = {
+    "outer_correctors": (SOLUTION, "nOuterCorrectors 1", "nOuterCorrectors -1", ["fvSolution:", "PIMPLE: nOuterCorrectors: -1", "of 1 or more"]),
+    "correctors": (SOLUTION, "nCorrectors 3", "nCorrectors 0", ["PIMPLE: nCorrectors: 0 is not allowed"]),
+    "given_flow": (SOLUTION, "nCorrectors 3; nNonOrthogonalCorrectors 0", "nCorrectors -1; nNonOrthogonalCorrectors -1",
+                   ["PIMPLE: nCorrectors: -1 is not allowed"]),
+    "relaxed_to_nothing": (SOLUTION, "PIMPLE", "relaxationFactors { equations { U 0; } }\nPIMPLE",
+                           ["relaxationFactors: equations: U: 0 is not allowed", "above 0 and at most 1"]),
+    "relaxed_beyond": (SOLUTION, "PIMPLE", "relaxationFactors { fields { \".*\" 1.5; } }\nPIMPLE", ["relaxationFactors: fields: .*: 1.5"]),
+    "alpha_correctors": (SOLUTION, "nAlphaCorr 1", "nAlphaCorr 0", ["alpha.water: nAlphaCorr: 0 is not allowed"]),
+    "alpha_steps": (SOLUTION, "nAlphaSubCycles 1", "nAlphaSubCycles 0", ["alpha.water: nAlphaSubCycles: 0"]),
+    "compression": (SOLUTION, "cAlpha 1", "cAlpha -1", ["alpha.water: cAlpha: -1", "of 0 or more"]),
+    "no_p_rghFinal": (SOLUTION, "p_rghFinal", "p_other", ["solvers: p_rghFinal is missing", "$p_rgh"]),
+    "no_pcorr": (SOLUTION, "\"pcorr.*\"", "pcorrFinal", ["solvers: pcorr is missing"]),
+    "no_pcorrFinal": (SOLUTION, "\"pcorr.*\"", "pcorr", ["pcorrFinal"]),
+    "no_UFinal": (SOLUTION, "\"U.*\"", "U", []),  # nor needed
+    "predicted_without_UFinal": (SOLUTION, "\"U.*\"", "U", ["solvers: UFinal is missing", "momentumPredictor is on"]),
+    "courant": (CONTROL, "maxCo 0.5", "maxCo 0", ["controlDict:", "maxCo: 0 is not allowed", "above 0"]),
+    "courant_of_surface": (CONTROL, "maxAlphaCo 0.5", "maxAlphaCo -1", ["maxAlphaCo: -1"]),
+    "longest_step": (CONTROL, "maxDeltaT 1000000000.0", "maxDeltaT 0", ["maxDeltaT: 0"]),
+    "step": (CONTROL, "deltaT 0.001", "deltaT 0", ["controlDict:", "deltaT: 0 is not allowed", "(s)"]),
+    "viscosity": (TRANSPORT, "nu 9.9999999999999995e-07", "nu -1", ["transportProperties:", "nu: -1 is not allowed"]),
+    "density": (TRANSPORT, "rho 1000", "rho -1000", ["rho: -1000 is not allowed"]),
+    "tension": (TRANSPORT, "sigma 0", "sigma -0.07", ["sigma: -0.07 is not allowed"]),
+}
+
+
+def with_number(name):
+    file, old, new, _ = NUMBERS[name]
+    pimple = "momentumPredictor yes;" if name.startswith("predicted") else ""
+    return replaced(box(name, pimple=pimple).write(), file, old, new)
+
+
 # name: (how the case is made, exit code, what has to be said, or not)
 def shaken(name, **keys):
     """A mesh that moves, with walls that know it."""
@@ -144,6 +199,16 @@ TRIALS = {
     "wall_inside_bulk_cells": (lambda: with_baffle(0.015), 0, ["24 bulk cells have fluid on both sides"]),
     "wall_between_bulk_cells": (lambda: with_baffle(0.02), 0, ["not: both sides"]),
     "library_in_controlDict": (with_library, 0, []),
+    "source_of_a_field_nobody_solves": (lambda: with_sources("nobody", source("vectorSemiImplicitSource", RATES + " { V ((1 0 0) 0); }")), 2,
+                                        ["constant/fvOptions:", "s (vectorSemiImplicitSource)", "would do nothing to V", "act on U alone"]),
+    "source_of_alpha": (lambda: with_sources("alpha", source("scalarSemiImplicitSource", RATES + " { alpha.water (1 0); }")), 2,
+                        ["s (scalarSemiImplicitSource)", "would do nothing to alpha.water"]),
+    "source_of_another_kind": (lambda: with_sources("kind", source("scalarSemiImplicitSource", RATES + " { U (1 0); }")), 2,
+                               ["would do nothing to U", "of its kind"]),
+    "source_that_is_not_active": (lambda: with_sources("inactive", source("vectorSemiImplicitSource", "active no; " + RATES + " { V ((1 0 0) 0); }")),
+                                  0, []),
+    "source_that_cannot_be_continued": (with_gradient_of_each_cell, 0, ["beware: constant/fvOptions:", "the run cannot be continued"]),
+    **{name: (lambda name=name: with_number(name), 2 if words else 0, [*words, "not: demvof-check"]) for name, (*_, words) in NUMBERS.items()},
 }
 
 
