@@ -352,8 +352,7 @@ json read_fluid_restart(const fs::path& run, const RestartPoint& point, const Fl
   try {
     const auto read = [&](int rank) {
       path = restart_folder(run, point.window) / fmt::format("fluid.{}", rank);
-      std::ifstream stream(path, std::ios::binary);
-      return json::from_cbor(stream);
+      return json::from_cbor(std::ifstream(path, std::ios::binary));
     };
     if (ranks == world.size() && point.frame.bulk_blocks == mine.blocks()) return read(world.rank());
     std::vector<json> all;
