@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -13,5 +15,8 @@ void require_numbers_that_can_be(const Foam::Time& time, bool particles);
 /// That fvSolution has a solver for all that will be solved. longest_step: that a step may have, s. Throws
 /// InputError.
 void require_solvers(const Flow& flow, double longest_step);
+
+/// What to say of a thick liquid between particles whose steps have one pressure correction; empty otherwise.
+std::string one_correction_for_thick_liquid(const Flow& flow, double longest_step);
 
 }  // namespace demvof

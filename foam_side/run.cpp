@@ -299,13 +299,14 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
       open_flow(args, scene, refinement ? &*refinement : nullptr, start ? &from : nullptr);
   install_signal_handlers();
   if (parameters.gravity) flow->gravity = *parameters.gravity;
-  require_solvers(*flow, longest_step(*flow, paired ? parameters.coupling.longest_window() : 0));
+  const double step = longest_step(*flow, paired ? parameters.coupling.longest_window() : 0);
+  require_solvers(*flow, step);
   const std::string forget = sources_that_forget(*flow);
   if (start && !forget.empty()) throw InputError("--continue: " + forget + "; start a new run");
-  for (const std::string& said :
-       {slope_without_effect(flow->mesh, flow->gravity),
-        gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow),
-        paired ? forget : "", paired ? unknown_sources(*flow) : ""})
+  for (const std::string& said : {slope_without_effect(flow->mesh, flow->gravity),
+                                  gravity_that_jumps(case_gravity(args), flow->gravity),
+                                  slow_pressure_solver(*flow), one_correction_for_thick_liquid(*flow, step),
+                                  paired ? forget : "", paired ? unknown_sources(*flow) : ""})
     if (!said.empty()) scene.advice.push_back(said);
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(

@@ -56,6 +56,11 @@ def with_time_scheme():
     return replaced(box("time_scheme").write(), "fluid/system/fvSchemes", "Euler", "CrankNicolson 0.9")
 
 
+def with_corrections(number, nu=1.0):
+    case_file = box(f"corrections_{number}_{nu}", liquid=(1000, nu)).write()
+    return replaced(case_file, "fluid/system/fvSolution", "nCorrectors 3", f"nCorrectors {number}")
+
+
 def with_zone():
     case_file = box("rotating_zone", extra_files={"fluid/constant/MRFProperties": ROTATING}).write()
     return replaced(case_file, "fluid/system/blockMeshDict", "hex (0 1 2 3 4 5 6 7)", "hex (0 1 2 3 4 5 6 7) z")
@@ -207,6 +212,9 @@ TRIALS = {
                                ["would do nothing to U", "of its kind"]),
     "source_that_is_not_active": (lambda: with_sources("inactive", source("vectorSemiImplicitSource", "active no; " + RATES + " { V ((1 0 0) 0); }")),
                                   0, []),
+    "thick_liquid_with_one_correction": (lambda: with_corrections(1), 0, ["nu dt/dx2 may be 10 and nCorrectors is 1"]),
+    "thick_liquid_with_two_corrections": (lambda: with_corrections(2), 0, ["not: nCorrectors is 1"]),
+    "thin_liquid_with_one_correction": (lambda: with_corrections(1, nu=2e-2), 0, ["not: nCorrectors is 1"]),
     "source_that_cannot_be_continued": (with_gradient_of_each_cell, 0, ["beware: constant/fvOptions:", "the run cannot be continued"]),
     **{name: (lambda name=name: with_number(name), 2 if words else 0, [*words, "not: demvof-check"]) for name, (*_, words) in NUMBERS.items()},
 }
