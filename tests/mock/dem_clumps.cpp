@@ -261,9 +261,13 @@ TEST(DemClumps, RestAsAWhole) {
 }
 
 TEST(DemClumps, AreRefusedWhereTheyAreNotKnown) {
-  const auto message = [](const std::string& more, const ForceParameters& parameters) -> std::string {
+  const std::string put_now = "run 1\nunfix put\n";
+  const auto message = [&](const std::string& more, const ForceParameters& parameters,
+                           bool later = false) -> std::string {
+    std::string script = doublet(1e-5, 0.2, 0.22, more);
+    if (later) script.erase(script.find(put_now), put_now.size());
     try {
-      const Scene scene("clump_refused", doublet(1e-5, 0.2, 0.22, more));
+      const Scene scene("clump_refused", script);
       const FluidForces forces(*scene.dem, parameters);
     } catch (const demvof::InputError& error) {
       return error.what();
@@ -272,8 +276,10 @@ TEST(DemClumps, AreRefusedWhereTheyAreNotKnown) {
   };
   EXPECT_EQ(message("", {}), "");
   for (const char* holding : {"fix hold all freeze\n", "fix hold all move linear 0 0 0\n"})
-    EXPECT_NE(message(holding, {}).find("LIGGGHTS moves clumps as if it were not there"), std::string::npos)
-        << holding;
+    for (const bool later : {false, true})
+      EXPECT_NE(message(holding, {}, later).find("LIGGGHTS moves clumps as if it were not there"),
+                std::string::npos)
+          << holding << "clumps put in by the coupled run: " << later;
   EXPECT_NE(message("create_atoms 1 single 0.05 0.05 0.3 units box\n", {})
                 .find("nothing moves a sphere that belongs to no clump (id 3)"),
             std::string::npos);
