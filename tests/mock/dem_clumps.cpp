@@ -265,7 +265,10 @@ TEST(DemClumps, AreRefusedWhereTheyAreNotKnown) {
   const auto message = [&](const std::string& more, const ForceParameters& parameters,
                            bool later = false) -> std::string {
     std::string script = doublet(1e-5, 0.2, 0.22, more);
-    if (later) script.erase(script.find(put_now), put_now.size());
+    if (later) {  // and in a group of their own
+      script.erase(script.find(put_now), put_now.size());
+      script.replace(script.find("fix move all"), 12, "group whole type 1\nfix move whole");
+    }
     try {
       const Scene scene("clump_refused", script);
       const FluidForces forces(*scene.dem, parameters);
