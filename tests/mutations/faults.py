@@ -350,7 +350,7 @@ FAULTS = [
     ("coupler/grid/bulk_partition.cpp", "block_of({range.end[0] - 1, range.end[1] - 1, range.end[2] - 1})",
      "block_of({range.end[0] - 1, range.end[1] - 1, range.begin[2]})", PARTITION),
     ("coupler/link/exchange_plan.cpp", "rank += mine.owners()", "rank += theirs.owners()", PLAN),
-    ("coupler/link/exchange_plan.cpp", "if (rank >= theirs.owners()) ranks.push_back(rank);", "", PLAN),
+    ("coupler/link/exchange_plan.cpp", "if (rank >= theirs.owners()) ranks.push_back(rank);", "if (rank < 0) ranks.push_back(rank);", PLAN),
     ("coupler/link/link.cpp", "std::sort(row_of.begin(), row_of.end());", "", LINK),
     ("coupler/link/link.cpp", "const std::size_t row = by_rank.rows[part.first + i];", "const std::size_t row = part.first + i;", LINK),
     ("coupler/grid/touched_cells.cpp", "&fetched[by_owner_.rows[at] * width]", "&fetched[at * width]", TOUCHED),
