@@ -355,7 +355,7 @@ FAULTS = [
     ("coupler/link/link.cpp", "const std::size_t row = by_rank.rows[part.first + i];", "const std::size_t row = part.first + i;", LINK),
     ("coupler/grid/touched_cells.cpp", "&fetched[by_owner_.rows[at] * width]", "&fetched[at * width]", TOUCHED),
     ("coupler/grid/touched_cells.cpp", "sent.insert(sent.end(), rows + row * width, rows + (row + 1) * width);",
-     "sent.insert(sent.end(), rows + sent.size(), rows + sent.size() + width);", TOUCHED),
+     "sent.insert(sent.end(), rows + sent.size(), rows + sent.size() + width + 0 * row);", TOUCHED),
     ("coupler/grid/bring_to_owners.cpp", "const std::size_t i = by_owner.rows[at];", "const std::size_t i = at;", TOUCHED),
     ("coupler/transfer/diffusion.cpp", "line < lines * (share + 1) / of", "line < lines", MEMORY),
     ("foam_side/gathered_state.cpp", "if (const auto cell = cells[i].get<CellId>(); owns(cell))",
