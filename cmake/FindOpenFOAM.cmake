@@ -15,6 +15,7 @@ Gives
 ]]
 set(_headers
     OpenFOAM OSspecific/POSIX finiteVolume meshTools dynamicMesh dynamicFvMesh fvOptions sampling surfMesh
+    parallel/decompose/decompositionMethods
     fileFormats transportModels transportModels/incompressible transportModels/twoPhaseMixture
     transportModels/twoPhaseProperties transportModels/interfaceProperties
     transportModels/immiscibleIncompressibleTwoPhaseMixture TurbulenceModels/turbulenceModels
@@ -22,7 +23,7 @@ set(_headers
 set(_libraries
     OpenFOAM finiteVolume meshTools dynamicMesh dynamicFvMesh fvOptions sampling surfMesh fileFormats
     incompressibleTransportModels twoPhaseMixture twoPhaseProperties interfaceProperties
-    immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels waveModels)
+    immiscibleIncompressibleTwoPhaseMixture turbulenceModels incompressibleTurbulenceModels waveModels decompositionMethods)
 
 # Integers and floating-point numbers are those of the sourced environment; Debian's packages are built with these.
 set(_label_size 32)

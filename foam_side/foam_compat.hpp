@@ -4,7 +4,10 @@
 // What the versions of OpenFOAM (openfoam.com, OPENFOAM is 1912 to 2412) name differently. Everything else
 // here is written so that all of them take it; docs/versions.md says what was run, and what compiled only.
 
+#include <type_traits>
+
 #include "foam_side/openfoam.hpp"
+#include "fvMeshDistribute.H"
 #include "isoAdvection.H"
 
 #if OPENFOAM < 2006
@@ -85,6 +88,15 @@ inline tmp<surfaceScalarField> advect_and_bound(volScalarField& alpha, const sur
 #endif
   return advector.getRhoPhi(dimensionedScalar("liquid", Foam::dimless, 1),
                             dimensionedScalar("gas", Foam::dimless, 0));
+}
+
+/// Moves the cells, with every registered field, to the ranks given for them.
+template <class Distribute = Foam::fvMeshDistribute>
+auto distribute_mesh(Foam::fvMesh& mesh, const Foam::labelList& ranks) {
+  if constexpr (std::is_constructible_v<Distribute, Foam::fvMesh&>)
+    return Distribute(mesh).distribute(ranks);
+  else
+    return Distribute(mesh, 1e-6 * mesh.bounds().mag()).distribute(ranks);  // where points are the same, m
 }
 
 }  // namespace demvof

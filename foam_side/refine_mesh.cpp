@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "findRefCell.H"
+#include "foam_side/balance_mesh.hpp"
 #include "foam_side/flow.hpp"
 #include "foam_side/initial_fields.hpp"
 #include "foam_side/last_answer.hpp"
@@ -81,10 +82,8 @@ void renew_geometry(Flow& flow) {
 }
 
 void record_balance(Flow& flow) {
-  const double most = Foam::returnReduce(flow.mesh.nCells(), Foam::maxOp<label>());
-  const double all = Foam::returnReduce(flow.mesh.nCells(), Foam::sumOp<label>());
   Refinement& refinement = *flow.refinement;
-  refinement.worst_imbalance = std::max(refinement.worst_imbalance, most * Foam::Pstream::nProcs() / all);
+  refinement.worst_imbalance = std::max(refinement.worst_imbalance, imbalance(flow.mesh));
   ++refinement.changes;
 }
 
@@ -106,6 +105,7 @@ bool refine_mesh(Flow& flow, const std::function<void()>& before) {
       change_mesh(flow, flow.refinement && flow.refinement->first ? flow.refinement->parameters.levels : 1);
   if (flow.refinement) flow.refinement->first = false;
   if (!changed) return false;
+  balance_mesh(flow);
   flow.mesh.topoChanging(true);  // also when only an earlier look changed it
   renew_geometry(flow);
   if (flow.refinement) record_balance(flow);

@@ -30,6 +30,8 @@ struct Refinement {
   bool first = true;           // the mesh has not been looked at yet
   long changes = 0;            // of the mesh, over the run
   double worst_imbalance = 1;  // largest number of cells on a rank over the mean, over the run
+  double left_imbalance = 1;   // likewise, after cells were last moved between ranks
+  long moves = 0;              // of cells between ranks, over the run
 
   bool due(const Flow& flow);  // true when the mesh has to be looked at in this step
   void set_marks(const Flow& flow);

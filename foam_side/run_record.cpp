@@ -195,6 +195,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
     results.cells.fine_min = results.cells.fine_min ? std::min(results.cells.fine_min, cells) : cells;
     if (flow.refinement) {
       results.cells.mesh_changes = flow.refinement->changes;
+      results.cells.rank_changes = flow.refinement->moves;
       results.cells.imbalance = flow.refinement->worst_imbalance;
     }
     results.cells.bulk_active_max = std::max(results.cells.bulk_active_max, window.active_cells);

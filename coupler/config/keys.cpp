@@ -179,6 +179,9 @@ std::vector<Key> make_keys() {
           DEMVOF_AT(fluid.refinement->porosity_jump)),
       key("fluid.refinement.max_cells", integer(1, 2e9), "No finer once the mesh has so many cells.",
           DEMVOF_AT(fluid.refinement->max_cells)),
+      key("fluid.refinement.max_imbalance", at_least(1, number("-")),
+          "Cells are moved between the ranks of foam_side when one has so many times the mean number of them.",
+          DEMVOF_AT(fluid.refinement->max_imbalance)),
 
       required(key("particles.script", text(),
                    "The LIGGGHTS input script, counted from the case file's folder.",

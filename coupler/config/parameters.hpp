@@ -27,6 +27,7 @@ struct RefinementParameters {
   bool particles = false;    // fine wherever there are particles
   double porosity_jump = 0;  // fine where eps of two neighbours differs by more, -; 0: not asked
   int max_cells = 10000000;  // no finer beyond this
+  double max_imbalance = 1.1;  // cells are moved between ranks beyond this: most on a rank over the mean
 };
 
 struct FluidParameters {

@@ -88,6 +88,7 @@ std::string results_json(const RunResults& r) {
                    {"bulk", r.cells.bulk},
                    {"bulk_active_max", r.cells.bulk_active_max},
                    {"mesh_changes", r.cells.mesh_changes},
+                   {"rank_changes", r.cells.rank_changes},
                    {"imbalance", r.cells.imbalance}};
   json["particles"] = {{"initial", r.particles.initial},
                        {"inserted", r.particles.inserted},

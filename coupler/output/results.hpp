@@ -52,6 +52,7 @@ struct RunResults {
   struct {
     long fine_min = 0, fine_max = 0, bulk = 0, bulk_active_max = 0;
     long mesh_changes = 0;  // by fluid.refinement
+    long rank_changes = 0;  // how often cells were moved between ranks
     double imbalance = 1;   // with it: most cells on a rank over the mean, worst of the run
   } cells;
   struct {

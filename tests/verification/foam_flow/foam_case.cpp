@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam_case.hpp"
 
+#include <mpi.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,8 +15,15 @@ namespace demvof::test {
 
 namespace files = std::filesystem;
 
-FoamCase::FoamCase(const std::string& name, const Settings& settings)
-    : folder_((files::current_path() / "foam_cases" / name).string()) {
+FoamCase::FoamCase(const std::string& name, const Settings& settings, const std::string& cut)
+    : folder_((files::current_path() / "foam_cases" / name).string()), parallel_(!cut.empty()) {
+  int rank = 0;
+  if (parallel_) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) make(settings, cut);
+  if (parallel_) MPI_Barrier(MPI_COMM_WORLD);
+}
+
+void FoamCase::make(const Settings& settings, const std::string& cut) const {
   files::remove_all(folder_);
   files::create_directories(folder_);
   files::copy(DEMVOF_FOAM_CASE, folder_, files::copy_options::recursive);
@@ -22,6 +31,13 @@ FoamCase::FoamCase(const std::string& name, const Settings& settings)
   for (const auto& [key, value] : settings) out << key << ' ' << value << ";\n";
   out.close();
   run("blockMesh");
+  if (cut.empty()) return;
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  std::ofstream(folder_ + "/system/decomposeParDict")
+      << "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }\n"
+      << "numberOfSubdomains " << ranks << "; method simple; coeffs { n " << cut << "; }\n";
+  run("decomposePar");
 }
 
 void FoamCase::run(const std::string& program) const {
@@ -31,15 +47,18 @@ void FoamCase::run(const std::string& program) const {
 }
 
 std::unique_ptr<Flow> FoamCase::open(const Scene& scene, const RefinementParameters* refinement) const {
-  if (refinement) {
+  int rank = 0;
+  if (parallel_) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (refinement && rank == 0) {
     files::remove(folder_ + "/constant/dynamicMeshDict");
     write_mesh_dictionary(folder_, *refinement);
   }
+  if (parallel_) MPI_Barrier(MPI_COMM_WORLD);
   Foam::messageStream::level = 0;
-  std::string words[] = {"foam_flow_test", "-case", folder_};
-  char* pointers[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  std::string words[] = {"foam_flow_test", "-case", folder_, "-parallel"};
+  char* pointers[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
   char** argv = pointers;
-  int argc = 3;
+  int argc = parallel_ ? 4 : 3;
   Foam::argList::noBanner();
   // Never destroyed: their destructors would end the process with exit code 0.
   static auto& kept = *new std::vector<const Foam::argList*>;

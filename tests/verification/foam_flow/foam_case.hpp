@@ -16,8 +16,9 @@ using Settings = std::map<std::string, std::string>;  // keys of foam_case/syste
 
 class FoamCase {
  public:
-  /// Copies the case, meshes it with blockMesh. name: folder below the working directory.
-  FoamCase(const std::string& name, const Settings& settings);
+  /// Copies the case, meshes it with blockMesh. name: folder below the working directory. cut: pieces along x, y, z for
+  /// the ranks of the test, of which the first does this; empty: the test has one.
+  FoamCase(const std::string& name, const Settings& settings, const std::string& cut = "");
 
   const std::string& folder() const { return folder_; }
   /// Runs an OpenFOAM program on the case; throws if it fails.
@@ -26,7 +27,10 @@ class FoamCase {
   std::unique_ptr<Flow> open(const Scene& scene, const RefinementParameters* refinement = nullptr) const;
 
  private:
+  void make(const Settings& settings, const std::string& cut) const;
+
   std::string folder_;
+  bool parallel_;
 };
 
 /// Scene with the given parts on.
