@@ -65,32 +65,29 @@ State state_of(const Flow& flow) {
   const auto& level = dynamic_cast<const Foam::dynamicRefineFvMesh&>(mesh).meshCutter().cellLevel();
   forAll(levels, cell) levels[cell] = level[cell];
   state.scalars["level"] = everywhere(mesh.C().primitiveField(), levels);
-  // A flux as a vector: which side of a face owns it does not matter.
-  for (const Foam::word& name : mesh.sortedNames<surfaceScalarField>()) {
-    const auto& flux = mesh.lookupObject<surfaceScalarField>(name);
-    Foam::vectorField places(mesh.nFaces()), values(mesh.nFaces());
-    for (label face = 0; face < mesh.nFaces(); ++face) {
-      const label patch = face < mesh.nInternalFaces() ? -1 : mesh.boundaryMesh().whichPatch(face);
-      const label at = patch < 0 ? face : face - mesh.boundaryMesh()[patch].start();
-      if (patch >= 0 && flux.boundaryField()[patch].empty()) continue;
-      const scalar value = patch < 0 ? flux[at] : flux.boundaryField()[patch][at];
-      places[face] = mesh.faceCentres()[face];
-      values[face] = flux.oriented()() ? value * mesh.faceAreas()[face] : vector(value, 0, 0);
-    }
-    state.faces[name] = everywhere(places, values);
+  // What the flux is made of anew (settle_flux). Other fields on faces are made anew, too, or live in a stage only.
+  Foam::vectorField places(mesh.nFaces()), values(mesh.nFaces());
+  for (label face = 0; face < mesh.nFaces(); ++face) {
+    const label patch = face < mesh.nInternalFaces() ? -1 : mesh.boundaryMesh().whichPatch(face);
+    places[face] = mesh.faceCentres()[face];
+    values[face] = patch < 0 ? (*flow.face_velocity)[face]
+                             : flow.face_velocity->boundaryField()[patch][face - mesh.boundaryMesh()[patch].start()];
   }
+  state.faces["Uf"] = everywhere(places, values);
   return state;
 }
 
+/// tolerance: relative.
 template <class Type>
-void expect_same(const std::map<std::string, Values<Type>>& before, const std::map<std::string, Values<Type>>& after) {
+void expect_same(const std::map<std::string, Values<Type>>& before, const std::map<std::string, Values<Type>>& after,
+                 double tolerance = 0) {
   EXPECT_EQ(before.size(), after.size());
   for (const auto& [name, values] : before) {
     ASSERT_TRUE(after.count(name)) << name;
     const Values<Type>& there = after.at(name);
     ASSERT_EQ(values.size(), there.size()) << name;
     long other = 0;
-    for (const auto& [where, value] : values) other += there.count(where) == 0 || Foam::mag(there.at(where) - value) > 0;
+    for (const auto& [where, value] : values) other += there.count(where) == 0 || Foam::mag(there.at(where) - value) > tolerance * Foam::mag(value);
     EXPECT_EQ(other, 0) << name << ", of " << values.size();
   }
 }
@@ -121,7 +118,6 @@ TEST(BalancedRanks, EverythingGoesAlong) {
   refinement.max_imbalance = 1e9;
   const FoamCase box("balanced_ranks", {{"nx", "10"}, {"ny", "5"}, {"nz", "15"}, {"p_tolerance", "1e-10"}}, "(1 1 3)");
   const auto flow = box.open(scene(true, true, true), &refinement);
-  const bool speaks = Foam::Pstream::master();
   const double low = 0.06;
   set_alpha(*flow, [&](const vector& x) { return ball(x, low); });
   const auto bed = [&] { return cell_values(*flow, [&](const vector& x) { return 1 - 0.4 * ball(x, low); }); };
@@ -136,14 +132,15 @@ TEST(BalancedRanks, EverythingGoesAlong) {
   EXPECT_FALSE(balance_mesh(*flow)) << "nobody asked for it";
   flow->refinement->parameters.max_imbalance = 1;
   EXPECT_TRUE(balance_mesh(*flow));
-  if (speaks)
-    std::cout << "most cells on a rank over the mean: " << was << ", then " << imbalance(flow->mesh) << "\n";
+  const double is = imbalance(flow->mesh);
+  if (Foam::Pstream::master())
+    std::cout << "most cells on a rank over the mean: " << was << ", then " << is << "\n";
   EXPECT_GT(was, 1.5);
-  EXPECT_LT(imbalance(flow->mesh), 1.1);
+  EXPECT_LT(is, 1.1);
   const State after = state_of(*flow);
   expect_same(before.scalars, after.scalars);
   expect_same(before.vectors, after.vectors);
-  expect_same(before.faces, after.faces);
+  expect_same(before.faces, after.faces, 1e-13);  // the two ranks at a cut differ in the last digit
   expect_same_across_cuts<scalar>(flow->mesh);
   expect_same_across_cuts<vector>(flow->mesh);
   EXPECT_FALSE(balance_mesh(*flow)) << "nothing left to gain";
