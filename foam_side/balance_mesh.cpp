@@ -53,7 +53,8 @@ Families families(const Foam::dynamicRefineFvMesh& mesh) {
 vector pieces(const Foam::fvMesh& mesh) {
   const label ranks = Foam::Pstream::nProcs();
   const Foam::IOdictionary given(Foam::IOobject("decomposeParDict", mesh.time().system(), mesh.time(),
-                                                Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false));
+                                                Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE,
+                                                false));
   const auto method = given.lookupOrDefault<Foam::word>("method", "none");
   for (const Foam::word& coefficients : {Foam::word(method + "Coeffs"), Foam::word("coeffs")}) {
     const auto n = given.optionalSubDict(coefficients).lookupOrDefault<vector>("n", vector::zero);
@@ -77,8 +78,7 @@ Foam::labelList new_ranks(const Foam::dynamicRefineFvMesh& mesh) {
   cut.add("order", "xyz");
   how.add("coeffs", cut);
   const Families all = families(mesh);
-  const Foam::labelList of_family =
-      Foam::decompositionMethod::New(how)->decompose(all.centres, all.cells);
+  const Foam::labelList of_family = Foam::decompositionMethod::New(how)->decompose(all.centres, all.cells);
   Foam::labelList of_cell(mesh.nCells());
   forAll(of_cell, cell) of_cell[cell] = of_family[all.of_cell[cell]];
   return of_cell;
@@ -125,7 +125,8 @@ bool balance_mesh(Flow& flow) {
   if (!Foam::Pstream::parRun() || !flow.refinement) return false;
   Refinement& refinement = *flow.refinement;
   const double now = imbalance(flow.mesh);
-  if (now <= std::max(refinement.parameters.max_imbalance, worth_a_move * refinement.left_imbalance)) return false;
+  if (now <= std::max(refinement.parameters.max_imbalance, worth_a_move * refinement.left_imbalance))
+    return false;
   auto& mesh = dynamic_cast<Foam::dynamicRefineFvMesh&>(flow.mesh);
   move_cells(mesh, new_ranks(mesh));
   refinement.left_imbalance = imbalance(flow.mesh);

@@ -128,6 +128,7 @@ void refine_start(Flow& flow) {
   flow.time.setTime(now, step);
   flow.mesh.topoChanging(false);
   if (!changed) return;
+  balance_mesh(flow);
   renew_geometry(flow);
   record_balance(flow);
   balance_pressure(flow);

@@ -180,7 +180,8 @@ std::vector<Key> make_keys() {
       key("fluid.refinement.max_cells", integer(1, 2e9), "No finer once the mesh has so many cells.",
           DEMVOF_AT(fluid.refinement->max_cells)),
       key("fluid.refinement.max_imbalance", at_least(1, number("-")),
-          "Cells are moved between the ranks of foam_side when one has so many times the mean number of them.",
+          "Cells are moved between the ranks of foam_side when one has so many times the mean number of "
+          "them.",
           DEMVOF_AT(fluid.refinement->max_imbalance)),
 
       required(key("particles.script", text(),

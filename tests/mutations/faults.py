@@ -370,4 +370,10 @@ FAULTS = [
     ("dem_side/contact_stiffness.cpp", "std::sqrt(radius / 2) * modulus", "std::sqrt(radius) * modulus", SPRINGS),
     ("dem_side/report.cpp", "report.holding_window = extremes.holding_window;", "", SOFT_PAIR),
     ("foam_side/run_record.cpp", "particles.on_soft_springs > soft_share * particles.touching", "particles.on_soft_springs < soft_share * particles.touching", SOFT_PAIR),
+    # ---- cells between ranks
+    ("foam_side/balance_mesh.cpp", "one = history.splitCells()[one].parent_;", "break;", BALANCE),
+    ("foam_side/balance_mesh.cpp", "  const_cast<Foam::hexRef8&>(mesh.meshCutter()).distribute(map());\n", "", BALANCE),
+    ("foam_side/balance_mesh.cpp", "  fill_cuts<vector>(mesh);\n", "", BALANCE),
+    ("foam_side/balance_mesh.cpp", "decompose(all.centres, all.cells)", "decompose(all.centres)", BALANCE),
+    ("foam_side/balance_mesh.cpp", "worth_a_move * refinement.left_imbalance", "0 * refinement.left_imbalance", BALANCE),
 ]

@@ -16,6 +16,7 @@ SHEAR, COMING, CARRIED, STREWN = ({f"^pair.{name}$": PAIR} for name in
                                   ("suspension_viscosity", "coming_and_going", "carried", "extremes"))
 FLOW = {"^foam_flow.(MovingPorosity|Displacement)$": ["foam_flow_test"]}
 ACROSS = {"^foam_flow.StiffDrag$": ["foam_flow_test"]}
+BALANCE = {"^balanced_ranks$": ["balanced_ranks_test"]}
 SOLVER = {"^foam_flow.PressureSolver$": ["foam_flow_test"]}
 THICK = {"^foam_flow.ThickLiquid$": ["foam_flow_test"]}
 ALONE = {"^foam_flow.SameAsInterFoam$": ["foam_flow_test"]}

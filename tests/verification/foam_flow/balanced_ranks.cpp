@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells that move between ranks take everything along: every registered field with its old values, the values across the new
-// cuts, the flux, and the knowledge of which cells were one. On several ranks.
+// Cells that move between ranks take everything along: every registered field with its old values, the values
+// across the new cuts, the flux, and the knowledge of which cells were one. On several ranks.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ Place place(const vector& x) {
   return {std::lround(1e9 * x.x()), std::lround(1e9 * x.y()), std::lround(1e9 * x.z())};
 }
 
-/// Values at places, of all ranks, on all ranks. Where two ranks have the same place the values have to be the same.
+/// Values at places, of all ranks, on all ranks. Where two ranks have the same place the values have to be
+/// the same.
 template <class Type>
 Values<Type> everywhere(const Foam::vectorField& places, const Foam::Field<Type>& values) {
   Foam::List<Foam::vectorField> all_places(Foam::Pstream::nProcs());
@@ -42,7 +43,8 @@ Values<Type> everywhere(const Foam::vectorField& places, const Foam::Field<Type>
 
 /// Fields on cells by name; patch values do not count.
 template <class Field>
-void add_cell_fields(const Foam::fvMesh& mesh, std::map<std::string, Values<typename Field::value_type>>& all) {
+void add_cell_fields(const Foam::fvMesh& mesh,
+                     std::map<std::string, Values<typename Field::value_type>>& all) {
   for (const Foam::word& name : mesh.sortedNames<Field>()) {
     const Foam::Field<typename Field::value_type>& values = mesh.lookupObject<Field>(name);
     all[name] = everywhere(mesh.C().primitiveField(), values);
@@ -65,13 +67,15 @@ State state_of(const Flow& flow) {
   const auto& level = dynamic_cast<const Foam::dynamicRefineFvMesh&>(mesh).meshCutter().cellLevel();
   forAll(levels, cell) levels[cell] = level[cell];
   state.scalars["level"] = everywhere(mesh.C().primitiveField(), levels);
-  // What the flux is made of anew (settle_flux). Other fields on faces are made anew, too, or live in a stage only.
+  // What the flux is made of anew (settle_flux). Other fields on faces are made anew, too, or live in a stage
+  // only.
   Foam::vectorField places(mesh.nFaces()), values(mesh.nFaces());
   for (label face = 0; face < mesh.nFaces(); ++face) {
     const label patch = face < mesh.nInternalFaces() ? -1 : mesh.boundaryMesh().whichPatch(face);
     places[face] = mesh.faceCentres()[face];
-    values[face] = patch < 0 ? (*flow.face_velocity)[face]
-                             : flow.face_velocity->boundaryField()[patch][face - mesh.boundaryMesh()[patch].start()];
+    values[face] =
+        patch < 0 ? (*flow.face_velocity)[face]
+                  : flow.face_velocity->boundaryField()[patch][face - mesh.boundaryMesh()[patch].start()];
   }
   state.faces["Uf"] = everywhere(places, values);
   return state;
@@ -79,15 +83,16 @@ State state_of(const Flow& flow) {
 
 /// tolerance: relative.
 template <class Type>
-void expect_same(const std::map<std::string, Values<Type>>& before, const std::map<std::string, Values<Type>>& after,
-                 double tolerance = 0) {
+void expect_same(const std::map<std::string, Values<Type>>& before,
+                 const std::map<std::string, Values<Type>>& after, double tolerance = 0) {
   EXPECT_EQ(before.size(), after.size());
   for (const auto& [name, values] : before) {
     ASSERT_TRUE(after.count(name)) << name;
     const Values<Type>& there = after.at(name);
     ASSERT_EQ(values.size(), there.size()) << name;
     long other = 0;
-    for (const auto& [where, value] : values) other += there.count(where) == 0 || Foam::mag(there.at(where) - value) > tolerance * Foam::mag(value);
+    for (const auto& [where, value] : values)
+      other += there.count(where) == 0 || Foam::mag(there.at(where) - value) > tolerance * Foam::mag(value);
     EXPECT_EQ(other, 0) << name << ", of " << values.size();
   }
 }
@@ -116,11 +121,14 @@ TEST(BalancedRanks, EverythingGoesAlong) {
   RefinementParameters refinement;
   refinement.levels = 2;
   refinement.max_imbalance = 1e9;
-  const FoamCase box("balanced_ranks", {{"nx", "10"}, {"ny", "5"}, {"nz", "15"}, {"p_tolerance", "1e-10"}}, "(1 1 3)");
+  const FoamCase box("balanced_ranks", {{"nx", "10"}, {"ny", "5"}, {"nz", "15"}, {"p_tolerance", "1e-10"}},
+                     "(1 1 3)");
   const auto flow = box.open(scene(true, true, true), &refinement);
   const double low = 0.06;
   set_alpha(*flow, [&](const vector& x) { return ball(x, low); });
-  const auto bed = [&] { return cell_values(*flow, [&](const vector& x) { return 1 - 0.4 * ball(x, low); }); };
+  const auto bed = [&] {
+    return cell_values(*flow, [&](const vector& x) { return 1 - 0.4 * ball(x, low); });
+  };
   set_initial_porosity(*flow, bed());
   const label all = Foam::returnReduce(flow->mesh.nCells(), Foam::sumOp<label>());
   begin_window(*flow, 2e-4);

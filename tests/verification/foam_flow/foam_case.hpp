@@ -16,8 +16,8 @@ using Settings = std::map<std::string, std::string>;  // keys of foam_case/syste
 
 class FoamCase {
  public:
-  /// Copies the case, meshes it with blockMesh. name: folder below the working directory. cut: pieces along x, y, z for
-  /// the ranks of the test, of which the first does this; empty: the test has one.
+  /// Copies the case, meshes it with blockMesh. name: folder below the working directory. cut: pieces along
+  /// x, y, z for the ranks of the test, of which the first does this; empty: the test has one.
   FoamCase(const std::string& name, const Settings& settings, const std::string& cut = "");
 
   const std::string& folder() const { return folder_; }
