@@ -169,8 +169,7 @@ std::vector<Key> make_keys() {
       key("fluid.refinement.levels", integer(1, 5), "How often a cell of the case's mesh may be halved.",
           DEMVOF_AT(fluid.refinement->levels)),
       key("fluid.refinement.buffer", integer(1, 20),
-          "Rings of cells around the interface that are fine too; the mesh is renewed before the interface "
-          "has come within half a cell of coarser ones.",
+          "Rings of fine cells around the interface, which never comes within half a cell of coarser ones.",
           DEMVOF_AT(fluid.refinement->buffer)),
       key("fluid.refinement.particles", flag(), "Fine wherever there are particles.",
           DEMVOF_AT(fluid.refinement->particles)),
@@ -180,8 +179,7 @@ std::vector<Key> make_keys() {
       key("fluid.refinement.max_cells", integer(1, 2e9), "No finer once the mesh has so many cells.",
           DEMVOF_AT(fluid.refinement->max_cells)),
       key("fluid.refinement.max_imbalance", at_least(1, number("-")),
-          "Cells are moved between the ranks of foam_side when one has so many times the mean number of "
-          "them.",
+          "Cells move between the ranks when one has more than this times the mean number.",
           DEMVOF_AT(fluid.refinement->max_imbalance)),
 
       required(key("particles.script", text(),
