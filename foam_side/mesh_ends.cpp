@@ -68,7 +68,8 @@ AllEnds find_ends(const Foam::fvMesh& mesh) {
   return {{Ends{sums[0], sums[1]}, Ends{sums[2], sums[3]}, Ends{sums[4], sums[5]}}, sums[6]};
 }
 
-void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis) {
+void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis, bool has_moved) {
+  if (grid.periodic()[axis] && has_moved) return;
   const double margin = tolerance * (mesh.upper[axis] - mesh.lower[axis]);
   const double below = mesh.lower[axis] - grid.lower()[axis], above = grid.upper()[axis] - mesh.upper[axis];
   if (below < -margin || above < -margin)
@@ -130,7 +131,7 @@ bool has_wall_with_velocity(const Flow& flow) {
 
 }  // namespace
 
-void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
+void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh, bool has_moved) {
   for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
     if (!Foam::isA<Foam::cyclicAMIPolyPatch>(patch)) continue;
     const auto& interface = Foam::refCast<const Foam::cyclicAMIPolyPatch>(patch);
@@ -148,7 +149,7 @@ void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
         "the fluid there");
   const MeshBox box = mesh_box(mesh);
   for (int axis = 0; axis < 3; ++axis) {
-    require_cover(grid, box, axis);
+    require_cover(grid, box, axis, has_moved);
     const bool solved = mesh.geometricD()[axis] == 1;
     if (solved) require_same_kind(axis, grid.periodic()[axis], ends.along[axis]);
   }
