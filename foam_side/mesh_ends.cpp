@@ -104,6 +104,16 @@ void require_same_kind(int axis, bool periodic, const Ends& ends) {
         name, axis + 1));
 }
 
+/// Where such a mesh goes nobody knows beforehand.
+bool flow_moves_bodies(const Foam::fvMesh& mesh) {
+  const Foam::IOdictionary motion(Foam::IOobject("dynamicMeshDict", mesh.time().constant(), mesh.time(),
+                                                 Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE,
+                                                 false));
+  const char* key = motion.found("motionSolver") ? "motionSolver" : "solver";  // as OpenFOAM
+  const auto solver = motion.lookupOrDefault<Foam::word>(key, "");
+  return solver == "rigidBodyMotion" || solver == "sixDoFRigidBodyMotion";
+}
+
 /// A wall that the mesh takes along has this velocity, or fluid would pass through it.
 bool has_wall_that_moves(const Flow& flow) {
   for (const Foam::fvPatchVectorField& patch : flow.U.boundaryField())
@@ -188,6 +198,11 @@ void require_same_motion(const Flow& flow, const std::vector<std::string>& moved
         "the "
         "fix out of the script",
         moved.front()));
+  if (mesh_moves && flow_moves_bodies(flow.mesh))
+    throw InputError(
+        "constant/dynamicMeshDict: the flow moves bodies of the fluid's mesh (rigidBodyMotion, "
+        "sixDoFRigidBodyMotion), and no surface of the script can follow them: with particles walls that "
+        "move as prescribed, the same in the script (fix move/mesh), or a body that stays");
   if (moved.empty() && mesh_moves && has_wall_that_moves(flow))
     throw InputError(
         "foam_side and dem_side do not agree: walls of the fluid's mesh move (constant/dynamicMeshDict, "

@@ -324,6 +324,7 @@ FAULTS = [
     ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
     ("foam_side/move_mesh.cpp", "if (open || ", "if (", MOVING),
     ("foam_side/extras.cpp", "  refuse_overlap_that_changes(flow);\n", "", HALVES),
+    ("foam_side/mesh_ends.cpp", "if (mesh_moves && flow_moves_bodies(flow.mesh))", "if (false)", REFUSALS),
     ("foam_side/mesh_ends.cpp", "if (grid.periodic()[axis] && has_moved) return;", "", PERIODIC),
     ("foam_side/openings_to_bulk.cpp", "if (grid.periodic()[axis]) continue;", "", PERIODIC),
     ("coupler/grid/bulk_grid.cpp", "point[axis] += period * std::round", "point[axis] += 0 * std::round", GRID),

@@ -7,7 +7,7 @@ import re
 import shutil
 
 import tutorials
-from moving_walls import Walls, are_moved_by_the_flow
+from moving_walls import Walls, are_moved_by_the_flow, let_go_along
 from tutorials import Failed
 
 BEADS, SIZE, DENSITY = 8, 0.3, 2500  # diameter over the local width of a cell; kg/m3
@@ -137,11 +137,14 @@ def as_demvof_asks(case):
     file.write_text(text + f"adjustTimeStep yes;\nmaxCo {COURANT};\nmaxAlphaCo {COURANT};\nmaxDeltaT 1;\n")
 
 
-def prepare(name, ready, folder, longest):
-    """A case file of the tutorial with beads; its walls that move, if any; the smallest bead's diameter."""
+def prepare(name, ready, folder, longest, along=()):
+    """A case file of the tutorial with beads; its walls that move, if any; the smallest bead's diameter. along: walls that
+    `demvof check` has said to go along with the mesh."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ready, folder / "fluid")
     as_demvof_asks(folder / "fluid")
+    for patch in along:
+        let_go_along(folder / "fluid", patch, folder, longest)
     case, control = folder / "fluid", (ready / "system" / "controlDict").read_text()
     lower, upper = corners(case, folder, longest)
     beads, ends = places(case, folder, BEADS, longest)
@@ -153,11 +156,11 @@ def prepare(name, ready, folder, longest):
     window = min(STEPS * float(tutorials.entry(control, "deltaT")), fall / WINDOWS)
     lightest = min(d for _, d in beads) ** 3 * math.pi / 6 * DENSITY
     down = [g / weight for g in gravity(case)] if weight else (0, 0, -1)
-    walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest) if moves else None
+    walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest, along) if moves else None
     slower = walls.fastest() * window / (WALL_STEP * min(d for _, d in beads)) if walls else 0
     if slower > 1:
         window /= slower
-        walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest)
+        walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest, along)
     step = window / DEM_STEPS
     if walls:
         room = ROOM * max(sides)

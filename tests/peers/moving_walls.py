@@ -69,6 +69,12 @@ def walls_that_move(case, faces, folder, longest):
     return moving
 
 
+def let_go_along(case, patch, folder, longest):
+    """The velocity that a wall needs where it moves with the mesh."""
+    said_by(["foamDictionary", str(case / "0" / "U"), "-entry", f"boundaryField.{patch}", "-set", "{ type movingWallVelocity; value uniform (0 0 0); }"],
+            case, folder, longest)
+
+
 def are_moved_by_the_flow(case):
     """Where the walls of a mesh that moves go, nobody knows beforehand."""
     return bool(re.search(r"^\s*motionSolver\s+(rigidBodyMotion|sixDoFRigidBodyMotion)", (case / "constant" / "dynamicMeshDict").read_text(), re.M))
@@ -175,9 +181,13 @@ def of_step(name, values, steps):
 class Walls:
     """Those of a case that move: files for its folder, lines for its script, and where the mesh is in the course of the run."""
 
-    def __init__(self, case, folder, window, windows, steps, longest):
+    def __init__(self, case, folder, window, windows, steps, longest, along=()):
+        """along: patches of which a part goes along, although the tutorial's U does not say so."""
         self.lines, self.left, self.folder, self.window = "", 0.0, folder, window
         faces, self.points = points_in_time(case, folder, window, windows, longest)
+        for patch in faces:
+            if patch[0] in along:
+                faces[patch] = [face for face in faces[patch] if all(self.points[0][p] != self.points[-1][p] for p in face)]
         names = walls_that_move(case, faces, folder, longest)
         if not names:
             raise Failed("its mesh moves without a wall")
