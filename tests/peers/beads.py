@@ -144,7 +144,7 @@ def prepare(name, ready, folder, longest, along=()):
     shutil.copytree(ready, folder / "fluid")
     as_demvof_asks(folder / "fluid")
     for patch in along:
-        let_go_along(folder / "fluid", patch, folder, longest)
+        let_go_along(folder / "fluid", patch)
     case, control = folder / "fluid", (ready / "system" / "controlDict").read_text()
     lower, upper = corners(case, folder, longest)
     beads, ends = places(case, folder, BEADS, longest)

@@ -69,10 +69,13 @@ def walls_that_move(case, faces, folder, longest):
     return moving
 
 
-def let_go_along(case, patch, folder, longest):
+def let_go_along(case, patch):
     """The velocity that a wall needs where it moves with the mesh."""
-    said_by(["foamDictionary", str(case / "0" / "U"), "-entry", f"boundaryField.{patch}", "-set", "{ type movingWallVelocity; value uniform (0 0 0); }"],
-            case, folder, longest)
+    file = case / "0" / "U"
+    text, count = re.subn(r"(boundaryField\s*\{)", rf"\1\n{patch} {{ type movingWallVelocity; value uniform (0 0 0); }}", file.read_text())
+    if count != 1:
+        raise Failed(f"0/U has {count} boundary fields")
+    file.write_text(text)
 
 
 def are_moved_by_the_flow(case):

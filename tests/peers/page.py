@@ -21,6 +21,9 @@ WALLS = 0.1
 # tolerances of the pressure leave.
 BOOKS = {"exchange": 1e-12, "momentum": 1e-8, "liquid_volume": 1e-6}
 
+# Where the fluid without beads, in the same steps, loses more than that of its liquid: how much, as measured.
+LOST_WITHOUT_BEADS = {"beads/interFoam/RAS/mixerVesselAMI": 2.1e-6}  # an interface of AMI patches that slides
+
 # Differences that are not a fault, each with the reason and the measurement that shows it.
 EXPLAINED = {
     "interIsoFoam/standingWave": "OpenFOAM's Crank-Nicolson forms the old derivative of the flux anew in each pressure correction; `foam_side` "
@@ -83,7 +86,8 @@ Where walls move with the fluid's mesh the script has the same ones: those patch
 `fix move/mesh` (`linear/variable`, and `rotate/variable` about each axis about which it turns) with the motion that the distribution's `moveDynamicMesh` gives from window to window
 (`tests/peers/moving_walls.py`). With `moveMeshOuterCorrectors no` and MULES on these meshes, as `check` asks for, and windows in which no wall goes further than {wall_step} of the smallest
 bead's diameter. "Walls apart" is the largest distance, at the end, of a corner of the script's surfaces from the fluid's, over that diameter: up to {walls}, of walls that bend (flaps, paddles beside
-each other) what is left of the rigid motion that is nearest. No script can follow bodies that the flow moves (floatingObject, DTCHullMoving).
+each other) what is left of the rigid motion that is nearest. A wall that `check` says goes along gets `movingWallVelocity` (the baffles of mixerVesselAMI, whose coarser mesh has a part of them in the zone that turns). No script can follow bodies that the flow
+moves (floatingObject, DTCHullMoving).
 
 """
 
@@ -116,7 +120,8 @@ def verdict(r):
     if r["name"].startswith("beads/"):
         if r.get("walls_apart", 0) > WALLS:
             return "walls apart"
-        return "closes" if all(r["books"][book] <= bound for book, bound in BOOKS.items()) else "open books"
+        bounds = {**BOOKS, "liquid_volume": max(BOOKS["liquid_volume"], 1.5 * LOST_WITHOUT_BEADS.get(r["name"], 0))}
+        return "closes" if all(r["books"][book] <= bound for book, bound in bounds.items()) else "open books"
     return "agrees" if agrees(r) else "explained" if r["name"] in EXPLAINED else "differs"
 
 
@@ -143,8 +148,9 @@ def beads_row(r):
     if r["outcome"] != "runs":
         return f"| {name} | | {r['outcome']} | | | | {cell(r['why'])} | {r['commit']} |"
     errors = " | ".join(f"{r['books'][book]:.1e}" for book in BOOKS)
-    walls = f"walls apart by {r['walls_apart']:.1e}" if "walls_apart" in r else ""
-    return f"| {name} | {r['particles']} | {verdict(r)} | {errors} | {walls} | {r['commit']} |"
+    notes = [f"walls apart by {r['walls_apart']:.1e}"] if "walls_apart" in r else []
+    notes += [f"liquid without beads: {LOST_WITHOUT_BEADS[r['name']]:.1e}"] if r["name"] in LOST_WITHOUT_BEADS else []
+    return f"| {name} | {r['particles']} | {verdict(r)} | {errors} | {'; '.join(notes)} | {r['commit']} |"
 
 
 def counts(solver, known, rows):
