@@ -150,7 +150,8 @@ def beads_row(r):
     errors = " | ".join(f"{r['books'][book]:.1e}" for book in BOOKS)
     notes = [f"walls apart by {r['walls_apart']:.1e}"] if "walls_apart" in r else []
     notes += [f"liquid without beads: {LOST_WITHOUT_BEADS[r['name']]:.1e}"] if r["name"] in LOST_WITHOUT_BEADS else []
-    return f"| {name} | {r['particles']} | {verdict(r)} | {errors} | {'; '.join(notes)} | {r['commit']} |"
+    said = f" {'; '.join(notes)}" if notes else ""
+    return f"| {name} | {r['particles']} | {verdict(r)} | {errors} |{said} | {r['commit']} |"
 
 
 def counts(solver, known, rows):

@@ -210,6 +210,8 @@ TRIALS = {
                                  ["constant/dynamicMeshDict", "no surface of the script can follow them"]),
     "mesh_that_moves_in_each_corrector": (lambda: shaken("correctors", pimple="moveMeshOuterCorrectors yes;"), 2,
                                           ["moveMeshOuterCorrectors", "once a step"]),
+    "flow_that_is_given": (lambda: box("given", pimple="nCorrectors -1; nNonOrthogonalCorrectors -1; frozenFlow yes;").write(), 2,
+                           ["a flow that is given takes no momentum from particles"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
                                  ["dynamicRefineFvMesh", "fluid.refinement"]),
     "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
