@@ -102,8 +102,13 @@ void require_loops(const dictionary& solution, bool particles) {
   const Entries entries("system/fvSolution", pimple, "PIMPLE: ");
   entries.require("nOuterCorrectors", {1, unbounded});
   // A flow that is given has -1 of both.
-  const bool given = !particles && entries["nNonOrthogonalCorrectors"].value_or(0) == -1;
-  if (given && entries["nCorrectors"].value_or(1) == -1) return;
+  const bool given = entries["nNonOrthogonalCorrectors"].value_or(0) == -1;
+  if (given && entries["nCorrectors"].value_or(1) == -1) {
+    if (!particles) return;
+    throw InputError(
+        "system/fvSolution: PIMPLE: nCorrectors: -1: a flow that is given takes no momentum from particles: "
+        "have it solved (1 or more, frozenFlow no), or run without particles");
+  }
   entries.require("nCorrectors", {1, unbounded});
   entries.require("nNonOrthogonalCorrectors", {0, unbounded});
 }

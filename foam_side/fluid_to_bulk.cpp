@@ -82,8 +82,7 @@ FluidToBulk::FluidToBulk(Flow& flow, const BulkCut& cut, const SurfaceToBulk& su
 }
 
 void FluidToBulk::renew() {
-  if (interpolates(cut_.to_bulk()))
-    sampler_ = std::make_unique<FluidSampler>(flow_.mesh, cut_.remap(), cut_.to_bulk());
+  if (interpolates(cut_.to_bulk())) sampler_ = std::make_unique<FluidSampler>(flow_.mesh, cut_);
 }
 
 std::vector<FluidToBulk::Means> FluidToBulk::means() const {

@@ -68,7 +68,8 @@ AllEnds find_ends(const Foam::fvMesh& mesh) {
   return {{Ends{sums[0], sums[1]}, Ends{sums[2], sums[3]}, Ends{sums[4], sums[5]}}, sums[6]};
 }
 
-void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis) {
+void require_cover(const BulkGrid& grid, const MeshBox& mesh, int axis, bool has_moved) {
+  if (grid.periodic()[axis] && has_moved) return;
   const double margin = tolerance * (mesh.upper[axis] - mesh.lower[axis]);
   const double below = mesh.lower[axis] - grid.lower()[axis], above = grid.upper()[axis] - mesh.upper[axis];
   if (below < -margin || above < -margin)
@@ -103,6 +104,16 @@ void require_same_kind(int axis, bool periodic, const Ends& ends) {
         name, axis + 1));
 }
 
+/// Where such a mesh goes nobody knows beforehand.
+bool flow_moves_bodies(const Foam::fvMesh& mesh) {
+  const Foam::IOdictionary motion(Foam::IOobject("dynamicMeshDict", mesh.time().constant(), mesh.time(),
+                                                 Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE,
+                                                 false));
+  const char* key = motion.found("motionSolver") ? "motionSolver" : "solver";  // as OpenFOAM
+  const auto solver = motion.lookupOrDefault<Foam::word>(key, "");
+  return solver == "rigidBodyMotion" || solver == "sixDoFRigidBodyMotion";
+}
+
 /// A wall that the mesh takes along has this velocity, or fluid would pass through it.
 bool has_wall_that_moves(const Flow& flow) {
   for (const Foam::fvPatchVectorField& patch : flow.U.boundaryField())
@@ -130,7 +141,7 @@ bool has_wall_with_velocity(const Flow& flow) {
 
 }  // namespace
 
-void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
+void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh, bool has_moved) {
   for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
     if (!Foam::isA<Foam::cyclicAMIPolyPatch>(patch)) continue;
     const auto& interface = Foam::refCast<const Foam::cyclicAMIPolyPatch>(patch);
@@ -148,7 +159,7 @@ void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh) {
         "the fluid there");
   const MeshBox box = mesh_box(mesh);
   for (int axis = 0; axis < 3; ++axis) {
-    require_cover(grid, box, axis);
+    require_cover(grid, box, axis, has_moved);
     const bool solved = mesh.geometricD()[axis] == 1;
     if (solved) require_same_kind(axis, grid.periodic()[axis], ends.along[axis]);
   }
@@ -187,6 +198,11 @@ void require_same_motion(const Flow& flow, const std::vector<std::string>& moved
         "the "
         "fix out of the script",
         moved.front()));
+  if (mesh_moves && flow_moves_bodies(flow.mesh))
+    throw InputError(
+        "constant/dynamicMeshDict: the flow moves bodies of the fluid's mesh (rigidBodyMotion, "
+        "sixDoFRigidBodyMotion), and no surface of the script can follow them: with particles walls that "
+        "move as prescribed, the same in the script (fix move/mesh), or a body that stays");
   if (moved.empty() && mesh_moves && has_wall_that_moves(flow))
     throw InputError(
         "foam_side and dem_side do not agree: walls of the fluid's mesh move (constant/dynamicMeshDict, "

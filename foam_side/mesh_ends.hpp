@@ -15,8 +15,9 @@ struct Flow;
 /// Throws InputError unless the bulk grid covers the fluid mesh, and the mesh is cyclic in exactly those
 /// directions in which the particles' box is periodic, with the same ends there. A direction that the fluid
 /// does not solve (empty patches) may be either. Collective over the fluid side.
-/// grid: wraps around where the particles' box does, as dem_side states it.
-void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh);
+/// grid: wraps around where the particles' box does, as dem_side states it. has_moved: the mesh may have left
+/// the ends of a periodic direction.
+void require_mesh_fits(const BulkGrid& grid, const Foam::fvMesh& mesh, bool has_moved);
 
 /// What to say about gravity along a direction in which the mesh is periodic; empty where there is none.
 /// Collective.

@@ -55,7 +55,8 @@ void require_walls_that_go_along(const Flow& flow) {
   Foam::reduce(most, Foam::maxOp<scalar>());
   forAll(flow.mesh.boundary(), patch) {
     const Foam::fvPatchVectorField& U = flow.U.boundaryField()[patch];
-    if (!Foam::isA<Foam::wallFvPatch>(U.patch())) continue;
+    const bool open = flow.p_rgh.boundaryField()[patch].fixesValue();  // whatever the mesh calls it
+    if (open || !Foam::isA<Foam::wallFvPatch>(U.patch())) continue;
     scalar through = 0;
     forAll(U, face) {
       const scalar area = U.patch().magSf()[face];

@@ -135,6 +135,7 @@ CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid,
 void require_inside(const Foam::fvMesh& mesh, const BulkGrid& grid) {
   const MeshBox box = mesh_box(mesh);
   for (int axis = 0; axis < 3; ++axis) {
+    if (grid.periodic()[axis]) continue;  // what leaves at one end is at the other
     const double margin = 1e-6 * (box.upper[axis] - box.lower[axis]);
     if (box.lower[axis] < grid.lower()[axis] - margin || box.upper[axis] > grid.upper()[axis] + margin)
       throw RunError(

@@ -314,7 +314,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
         "fine: remove "
         "the file, and write a section fluid.refinement");
   if (paired) {
-    require_mesh_fits(*grid, flow->mesh);
+    require_mesh_fits(*grid, flow->mesh, start && scene.mesh_moves);
     if (const std::string said = walls_inside_bulk_cells(flow->mesh, *grid); !said.empty())
       scene.advice.push_back(said);
     require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));

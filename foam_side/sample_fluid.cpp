@@ -75,10 +75,11 @@ class PointValues {
 
 }  // namespace
 
-FluidSampler::FluidSampler(const Foam::fvMesh& mesh, const Remap& remap, Mapping mapping)
-    : mapping_(mapping), slots_(remap.bulk_centroid().size()) {
-  for (const Subcell& subcell : remap.subcells()) {
-    const vector point = to_foam(remap.bulk_centroid()[subcell.slot]);
+FluidSampler::FluidSampler(const Foam::fvMesh& mesh, const BulkCut& cut)
+    : mapping_(cut.to_bulk()), slots_(cut.remap().bulk_centroid().size()) {
+  for (const Subcell& subcell : cut.remap().subcells()) {
+    const vector point = to_foam(cut.grid().nearest_image(cut.remap().bulk_centroid()[subcell.slot],
+                                                          to_vec3(mesh.cellCentres()[subcell.fine])));
     if (holds(mesh, subcell.fine, point)) hits_.push_back({subcell.slot, subcell.fine, point});
   }
 }

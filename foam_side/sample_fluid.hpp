@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "coupler/transfer/remap.hpp"
+#include "foam_side/bulk_cut.hpp"
 #include "foam_side/flow.hpp"
 
 namespace demvof {
@@ -25,7 +25,7 @@ struct FluidSample {
 /// To be built anew when the mesh changes. Calls are collective over the fluid side.
 class FluidSampler {
  public:
-  FluidSampler(const Foam::fvMesh& mesh, const Remap& remap, Mapping mapping);
+  FluidSampler(const Foam::fvMesh& mesh, const BulkCut& cut);
 
   /// This rank's sums, one row per touched bulk cell. gradient, viscosity: one value per fine cell.
   std::vector<FluidSample> sample(const Flow& flow, const Foam::vectorField& gradient,

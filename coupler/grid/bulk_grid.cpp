@@ -40,6 +40,14 @@ std::array<int, 3> BulkGrid::locate(const Vec3& point) const {
   return ijk;
 }
 
+Vec3 BulkGrid::nearest_image(Vec3 point, const Vec3& place) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double period = upper_[axis] - lower_[axis];
+    if (periodic_[axis]) point[axis] += period * std::round((place[axis] - point[axis]) / period);
+  }
+  return point;
+}
+
 bool BulkGrid::contains(const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis)
     if (!(point[axis] >= lower_[axis] && point[axis] <= upper_[axis])) return false;

@@ -37,6 +37,8 @@ class BulkGrid {
   /// (periodic directions wrap).
   std::array<int, 3> locate(const Vec3& point) const;
   bool contains(const Vec3& point) const;
+  /// The point, moved by whole periods to where it is nearest to the place.
+  Vec3 nearest_image(Vec3 point, const Vec3& place) const;
   Vec3 cell_lower(const std::array<int, 3>& ijk) const;
   Vec3 cell_centre(const std::array<int, 3>& ijk) const;
   /// The neighbour of ijk moved by step along axis, or -1 beyond a wall (periodic directions wrap).

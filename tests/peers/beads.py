@@ -7,6 +7,7 @@ import re
 import shutil
 
 import tutorials
+from moving_walls import Walls, are_moved_by_the_flow, let_go_along
 from tutorials import Failed
 
 BEADS, SIZE, DENSITY = 8, 0.3, 2500  # diameter over the local width of a cell; kg/m3
@@ -42,8 +43,10 @@ pair_style      gran model hooke/stiffness tangential history
 pair_coeff      * *
 timestep        {step:.12g}
 fix             gravity all gravity {weight:.12g} vector {down}
-fix             integrate all nve/sphere
+{walls}fix             integrate all nve/sphere
 """
+WALL_STEP = 0.25  # of the smallest bead's diameter, that a wall moves in a window, at most
+ROOM = 0.02  # of the longest side, between a mesh that moves and the ends of box and bulk grid
 
 
 def known():
@@ -54,7 +57,7 @@ def known():
 def settings():
     """For the page."""
     return {"beads": BEADS, "density": DENSITY, "size": SIZE, "from_walls": FROM_WALLS, "cells": CELLS, "windows": WINDOWS,
-            "steps": STEPS, "fall": FALL, "courant": COURANT}
+            "steps": STEPS, "fall": FALL, "courant": COURANT, "wall_step": WALL_STEP}
 
 
 def vectors(text):
@@ -118,40 +121,58 @@ def gravity(case):
 
 
 def as_demvof_asks(case):
-    """What `demvof check` says of a case for pairs, done: Euler in place of another time scheme, and no mesh that refines itself
-    by the fluid's own dictionary. Steps as long as their Courant number allows."""
+    """What `demvof check` says of a case for pairs, done: Euler in place of another time scheme, no mesh that refines itself
+    by the fluid's own dictionary, one that moves once a step, and by MULES. Steps as long as their Courant number allows."""
     file = case / "system" / "fvSchemes"
     file.write_text(re.sub(r"(ddtSchemes\s*\{\s*default\s+)[^;]+;", r"\1Euler;", file.read_text()))
     mesh = case / "constant" / "dynamicMeshDict"
     if mesh.exists() and "dynamicRefineFvMesh" in mesh.read_text():
         mesh.unlink()
+    if mesh.exists():
+        file = case / "system" / "fvSolution"
+        text = re.sub(r"(moveMeshOuterCorrectors\s+)\w+;", r"\1no;", file.read_text())
+        file.write_text(re.sub(r"(isoFaceTol)", r"advectionScheme MULES; cAlpha 1;\n        \1", text))
     file = case / "system" / "controlDict"
     text = re.sub(r"^\s*(adjustTimeStep|maxCo|maxAlphaCo|maxDeltaT)\s[^;]*;", "", file.read_text(), flags=re.M)
     file.write_text(text + f"adjustTimeStep yes;\nmaxCo {COURANT};\nmaxAlphaCo {COURANT};\nmaxDeltaT 1;\n")
 
 
-def prepare(name, ready, folder, longest):
-    """A case file of the tutorial with beads."""
+def prepare(name, ready, folder, longest, along=()):
+    """A case file of the tutorial with beads; its walls that move, if any; the smallest bead's diameter. along: walls that
+    `demvof check` has said to go along with the mesh."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ready, folder / "fluid")
     as_demvof_asks(folder / "fluid")
+    for patch in along:
+        let_go_along(folder / "fluid", patch)
     case, control = folder / "fluid", (ready / "system" / "controlDict").read_text()
     lower, upper = corners(case, folder, longest)
     beads, ends = places(case, folder, BEADS, longest)
     periodic = periodic_axes(ends, lower, upper)
     sides = [b - a for a, b in zip(lower, upper)]
+    motion = case / "constant" / "dynamicMeshDict"
+    moves = motion.exists() and "staticFvMesh" not in motion.read_text() and not are_moved_by_the_flow(case)
     weight = math.dist(gravity(case), (0, 0, 0))
     fall = math.sqrt(2 * FALL * min(d for _, d in beads) / weight) if weight else math.inf
     window = min(STEPS * float(tutorials.entry(control, "deltaT")), fall / WINDOWS)
-    step = window / DEM_STEPS
     lightest = min(d for _, d in beads) ** 3 * math.pi / 6 * DENSITY
     down = [g / weight for g in gravity(case)] if weight else (0, 0, -1)
+    walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest, along) if moves else None
+    slower = walls.fastest() * window / (WALL_STEP * min(d for _, d in beads)) if walls else 0
+    if slower > 1:
+        window /= slower
+        walls = Walls(case, folder, window, WINDOWS, DEM_STEPS, longest, along)
+    step = window / DEM_STEPS
+    if walls:
+        room = ROOM * max(sides)
+        lower, upper = (tuple(x + sign * room for x in corner) for corner, sign in zip(walls.box(), (-1, 1)))
+        sides = [b - a for a, b in zip(lower, upper)]
     create = "\n".join(f'if              "${{continued}} == 0" then "create_atoms 1 single {" ".join(f"{x:.12g}" for x in at)} units box" '
                        f'"set atom {n} diameter {d:.9g}"' for n, (at, d) in enumerate(beads, 1))
     (folder / "in.beads").write_text(SCRIPT.format(
         count=len(beads), name=name, boundary=" ".join("p" if axis in periodic else "f" for axis in range(3)), box=" ".join(f"{a:.12g} {b:.12g}" for a, b in zip(lower, upper)),
         skin=max(*(d for _, d in beads), max(sides) / BINS), create=create, density=DENSITY, stiffness=lightest / 2 * (math.pi / (CONTACT * step)) ** 2,
-        step=step, weight=weight, down=" ".join(f"{x:.12g}" for x in down)))
+        walls=walls.lines if walls else "", step=step, weight=weight, down=" ".join(f"{x:.12g}" for x in down)))
     for made in ("C", "Cx", "Cy", "Cz", "V", f"mag({tutorials.liquid_name(case)})"):
         (case / "0" / made).unlink(missing_ok=True)
     file = folder / "case.yaml"
@@ -160,4 +181,4 @@ def prepare(name, ready, folder, longest):
         "bulk_grid": {"lower": lower, "upper": upper, "cells": [max(1, round(CELLS * s / max(sides))) for s in sides]},
         "coupling": {"window": window, "end_time": WINDOWS * window},
         "forces": [{"drag": "schiller_naumann"}, "pressure_gradient"]}, indent=1))
-    return file
+    return file, walls, min(d for _, d in beads)

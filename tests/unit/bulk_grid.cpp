@@ -47,6 +47,14 @@ TEST(BulkGrid, PeriodicDirectionsWrap) {
   EXPECT_EQ(grid.neighbour({1, 1, 1}, 1, 1), grid.id({1, 2, 1}));
 }
 
+TEST(BulkGrid, ImagesAreNearestWhereTheGridWraps) {
+  const BulkGrid grid({0, 0, 0}, {4, 4, 4}, {4, 4, 4}, {true, false, true});
+  const Vec3 image = grid.nearest_image({3.5, 3.5, 1}, {0.5, 0.5, 9.5});
+  EXPECT_DOUBLE_EQ(image.x, -0.5);
+  EXPECT_DOUBLE_EQ(image.y, 3.5);
+  EXPECT_DOUBLE_EQ(image.z, 9);
+}
+
 TEST(BulkGrid, RejectsWhatIsNoGrid) {
   EXPECT_THROW(BulkGrid({0, 0, 0}, {1, 1, 1}, {1, 0, 1}), std::invalid_argument);
   EXPECT_THROW(BulkGrid({0, 0, 0}, {1, 1, 0}, {1, 1, 1}), std::invalid_argument);

@@ -132,7 +132,7 @@ def push(demvof, window, schedule):
                    sides={side: Slip() for side in SIDES}, gravity=(0, 0, 0), velocity=(PISTON, 0, 0), dem_step=window / 10, margin=0.05,
                    tolerance=1e-12, relative_tolerance=0, coupling={"schedule": schedule}, history_interval=window,
                    first_step=window / 4, longest_step=window / 4)
-    case.sides.update({"x-": moving_wall(), "x+": Outlet()})
+    case.sides.update({"x-": moving_wall(), "x+": {**Outlet(), "type": "wall"}})  # the mesh calls it a wall, which is nothing to what is open
     case.particles = [Particle((0.03 + 0.0055 * i, 0.0035 + 0.0055 * j, 0.0035 + 0.0055 * k), 4e-3, 1000, velocity=(PISTON, 0, 0))
                       for i in range(5) for j in range(7) for k in range(7)]
     walls_of_the_script(case, (0, 0, 0), (1e-4, 0.04, 0.04), f"linear {PISTON} 0. 0.")

@@ -24,6 +24,16 @@ solver solidBody;
 solidBodyMotionFunction oscillatingLinearMotion;
 oscillatingLinearMotionCoeffs { amplitude (0.01 0 0); omega 10; }
 """
+BODY = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicMotionSolverFvMesh;
+motionSolverLibs (sixDoFRigidBodyMotion);
+motionSolver sixDoFRigidBodyMotion;
+sixDoFRigidBodyMotionCoeffs { patches (xlow); innerDistance 0.005; outerDistance 0.01; mass 1; centreOfMass (0 0 0); momentOfInertia (1 1 1);
+    accelerationRelaxation 1; solver { type Newmark; } }
+"""
+DISPLACEMENT = HEADER.format("pointDisplacement").replace("dictionary", "pointVectorField") + """dimensions [0 1 0 0 0 0 0];
+internalField uniform (0 0 0);
+boundaryField { ".*" { type calculated; } }
+"""
 REFINES = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicRefineFvMesh;
 refineInterval 1; field alpha.water; lowerRefineLevel 0.1; upperRefineLevel 0.9; unrefineLevel 10; nBufferLayers 1;
 maxRefinement 1; maxCells 10000; correctFluxes ((phi none)); dumpLevel false;
@@ -161,10 +171,12 @@ def with_number(name):
 
 
 # name: (how the case is made, exit code, what has to be said, or not)
-def shaken(name, **keys):
+def shaken(name, motion=None, displacement=False, **keys):
     """A mesh that moves, with walls that know it."""
     case = box(name, **keys)
-    case.extra_files["fluid/constant/dynamicMeshDict"] = SHAKEN
+    case.extra_files["fluid/constant/dynamicMeshDict"] = motion or SHAKEN
+    if displacement:
+        case.extra_files.update({"particles/p.stl": STL, "fluid/0.orig/pointDisplacement": DISPLACEMENT})
     for side in case.sides.values():
         if side["type"] == "wall":
             side["U"] = "movingWallVelocity; value uniform (0 0 0)"
@@ -194,8 +206,12 @@ TRIALS = {
                         ["wall xlow moves with the mesh", "movingWallVelocity does"]),
     "mesh_that_moves_on_one_side": (lambda: shaken("mesh_alone"), 2, ["walls of the fluid's mesh move", "fix move/mesh"]),
     "mesh_that_moves_on_both": (lambda: shaken("mesh_and_script", script_tail=PISTON, extra_files={"particles/p.stl": STL}), 0, []),
+    "body_that_the_flow_moves": (lambda: shaken("body", motion=BODY, script_tail=PISTON, displacement=True), 2,
+                                 ["constant/dynamicMeshDict", "no surface of the script can follow them"]),
     "mesh_that_moves_in_each_corrector": (lambda: shaken("correctors", pimple="moveMeshOuterCorrectors yes;"), 2,
                                           ["moveMeshOuterCorrectors", "once a step"]),
+    "flow_that_is_given": (lambda: box("given", pimple="nCorrectors -1; nNonOrthogonalCorrectors -1; frozenFlow yes;").write(), 2,
+                           ["a flow that is given takes no momentum from particles"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
                                  ["dynamicRefineFvMesh", "fluid.refinement"]),
     "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
