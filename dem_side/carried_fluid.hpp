@@ -31,13 +31,13 @@ struct LocalDrag {
 /// Of one fluid, as if the particle lay wholly in it, but for what it received. What every DEM step needs
 /// comes first: fewer lines of memory.
 struct CarriedFluid {
-  Vec3 velocity;        // u, m/s
-  Vec3 pressure_force;  // N
-  Vec3 drag_impulse;    // received in this window, lift and added mass included, N s
-  double drag_factor_sum =
-      0;  // of this window: sum of beta over the evaluations, with the wetted share, kg/s
+  Vec3 velocity;         // u, m/s
+  Vec3 pressure_force;   // N
+  Vec3 left_over_force;  // N
   LocalDrag drag;
-  Vec3 left_over_force;      // N
+  Vec3 drag_impulse;  // received in this window, lift and added mass included, N s
+  double drag_factor_sum =
+      0;                     // of this window: sum of beta over the evaluations, with the wetted share, kg/s
   double density = 0;        // rho, kg/m3; 0: this fluid is not here
   double viscosity = 0;      // mu, Pa s
   double void_fraction = 1;  // eps, -
@@ -61,8 +61,11 @@ struct CarriedContacts {
 };
 
 struct CarriedRow {
-  CarriedContacts contacts;
+  /// 1 + k: in this window it is wholly in fluid k, sees no surface, and nothing else is to be known of it.
+  /// 0: more is, or it is new.
+  double alone = 0;
   Vec3 path;  // covered in this window, m
+  CarriedContacts contacts;
   // s, without a fluid that there is: new since the last window began. The fluid's pressure has yet to act.
   double waited = 0;
   double known = 0;  // 1: it was there when a window began
@@ -101,8 +104,11 @@ Carried& carried_by(double* const* rows, int i) {
 inline void fetch_ahead(double* const* rows, int i, int count) {
   constexpr int particles_ahead = 8, line = 64;
   if (i + particles_ahead >= count) return;
-  const auto* row = reinterpret_cast<const char*>(rows[i + particles_ahead]);
-  for (std::size_t byte = 0; byte < sizeof(CarriedRow); byte += line) __builtin_prefetch(row + byte, 1);
+  const CarriedRow& row = carried_by(rows, i + particles_ahead);
+  __builtin_prefetch(&row, 1);
+  const auto* fluid = reinterpret_cast<const char*>(&row.fluid[row.alone > 1]);
+  for (std::size_t byte = 0; byte < offsetof(CarriedFluid, density); byte += line)
+    __builtin_prefetch(fluid + byte, 1);
 }
 
 /// The surface at the start of a window; what is not told counts as not there.

@@ -95,9 +95,9 @@ class Dem {
   int type(int i) const;  // of it, from 1
   /// True when LIGGGHTS moves local particle i by the forces on it; false for particles that are frozen,
   /// moved by prescription or not integrated at all. Clumps know none of that.
-  bool integrates(int i) const {
-    return clumps_->has(i) || ((mask(i) & integrated_) && !(mask(i) & frozen_));
-  }
+  bool integrates(int i) const { return clumps_->has(i) || integrates_sphere(mask(i)); }
+  /// The same of a sphere by itself with this mask.
+  bool integrates_sphere(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
   bool held(int mask) const { return mask & held_; }  // by a fix of the script
   /// An insertion that moves local particle i at the velocity that it prescribes (fix insert/stream, until
   /// the particle has left the insertion's volume): it takes all force from it. With the last step it gives
@@ -108,6 +108,7 @@ class Dem {
     Vec3 change;            // of the velocity by that, m/s
   };
   Stream stream(int i) const { return stream_ ? found_stream(i) : Stream{}; }
+  bool has_stream() const { return stream_; }
   /// True when it turns such a particle by the torque on it.
   bool turns(int mask) const { return (mask & turned_) && !(mask & frozen_); }
   /// True when fix gravity acts on a particle with this mask.
@@ -148,13 +149,12 @@ class Dem {
   NearPairs near_pairs() const;
   std::vector<NearWall> near_walls(double radii) const;
 
-  /// Calls add_forces in every DEM step, after all other forces and torques are known; external: local
-  /// particle
-  /// -> force to add, N, to be set for every particle. A torque is added to particles.torque. Called in
-  /// set_up() too.
-  using AddForces = std::function<void(const ParticleArrays& particles, double* const* external)>;
+  /// Calls add_forces in every DEM step, after all other forces and torques are known: to add to
+  /// particles.force and particles.torque, and in the last step of a run to note by local particle what it
+  /// has added, N; added: nullptr in other steps. Called in set_up() too.
+  using AddForces = std::function<void(const ParticleArrays& particles, double* const* added)>;
   void attach(AddForces add_forces);
-  /// What the last step's call has added to each local particle, N.
+  /// What the last step of the last run has added to each local particle, N.
   double* const* added_forces() const;
 
  private:
