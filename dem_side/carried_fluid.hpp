@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "coupler/base/series.hpp"
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
 #include "coupler/closures/size_mix.hpp"
@@ -15,17 +16,11 @@
 
 namespace demvof {
 
-/// The drag factor near the slip for which it was last evaluated,
-///
-///   beta(s) = beta_0 (1 + (n - 1) (s/s_0 - 1))       n: the exponent there (implicit_drag.hpp)
-///
-/// good to (n - 1)(2 - n)/2 (s/s_0 - 1)^2 where the drag goes like s^n.
+/// The drag factor near the slip s_0 for which the law was last asked: its power series in s/s_0 - 1, within
+/// its reach.
 struct LocalDrag {
-  double factor = 0;    // beta_0, kg/s
-  double slip = 0;      // s_0, m/s; 0: not evaluated
-  double exponent = 0;  // n, -; 0: not asked for yet
-
-  double at(double s) const { return factor * (1 + (exponent - 1) * (s / slip - 1)); }
+  Series factor;    // kg/s
+  double slip = 0;  // s_0, m/s; 0: the law is to be asked
 };
 
 /// Of one fluid, as if the particle lay wholly in it, but for what it received. What every DEM step needs

@@ -12,10 +12,9 @@
 namespace demvof {
 namespace {
 
-// Relative change of the slip over which the drag's slope is taken.
-constexpr double tangent_step = 1e-3;
-// Within this of the slip its drag factor follows the slope: with n between 1 and 2 it is good to 3e-6.
-constexpr double near_slip = 5e-3;
+// Within this of the slip its drag factor follows the series: with an exponent between 1 and 2 it is good to
+// 3e-7.
+constexpr double near_slip = 0.05;
 
 // Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
 // particle that touches nothing is zero or a last bit of its weight.
@@ -38,59 +37,49 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
       attach(NoDrag{});
       break;
     case DragLaw::schiller_naumann:
-      attach(DragClosure<schiller_naumann>{schiller_naumann_range});
+      attach(DragClosure{[](auto... of) { return schiller_naumann(of...); }, schiller_naumann_range});
       break;
     case DragLaw::gidaspow:
-      attach(DragClosure<gidaspow>{gidaspow_range});
+      attach(DragClosure{[](auto... of) { return gidaspow(of...); }, gidaspow_range});
       break;
     case DragLaw::di_felice:
-      attach(DragClosure<di_felice>{di_felice_range});
+      attach(DragClosure{[](auto... of) { return di_felice(of...); }, di_felice_range});
       break;
     case DragLaw::koch_hill:
-      attach(DragClosure<koch_hill>{koch_hill_range});
+      attach(DragClosure{[](auto... of) { return koch_hill(of...); }, koch_hill_range});
       break;
     case DragLaw::beetstra:
       attach(BeetstraOfSizes{});
       break;
     case DragLaw::rong:
-      attach(DragClosure<rong>{rong_range});
+      attach(DragClosure{[](auto... of) { return rong(of...); }, rong_range});
       break;
   }
 }
 
-/// beta of a fluid all around it, evaluated where the slip has changed.
+/// beta of a fluid all around it; the law is asked where the slip has changed.
 template <class Drag>
 [[gnu::always_inline]] inline double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid,
                                                               double diameter, double slip) {
-  const LocalDrag& drag = fluid.drag;
-  const bool near = drag.slip > 0 && drag.exponent > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip;
-  return near ? drag.at(slip) : new_drag_factor(law, fluid, diameter, slip);
+  const double change = slip / fluid.drag.slip - 1;
+  if (std::abs(change) < fluid.drag.factor.reach) return fluid.drag.factor.at(change);
+  return new_drag_factor(law, fluid, diameter, slip);
 }
 
 /// At the window's first step the drag's exponent is noted as well.
 template <class Drag>
 [[gnu::noinline]] double FluidForces::new_drag_factor(const Drag& law, CarriedFluid& fluid, double diameter,
                                                       double slip) {
-  const auto factor = [&](double speed, ClosureCount& count) {
+  const auto factor = [&](const auto& speed) -> Series {
     return own_wake_width_
-               ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
-               : law.factor(fluid, diameter, speed, count);
+               ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), drag_count_)
+               : law.factor(fluid, diameter, speed, drag_count_);
   };
   LocalDrag& drag = fluid.drag;
-  const auto find_exponent = [&] {
-    ClosureCount further;
-    drag.exponent = drag_exponent(drag.factor, factor((1 + tangent_step) * drag.slip, further), tangent_step);
-  };
-  if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) {
-    find_exponent();
-    return drag.at(slip);
-  }
-  drag = {factor(slip, drag_count_), slip, 0};
-  if (fluid.drag_factor_sum == 0) {
-    find_exponent();
-    fluid.drag_exponent = drag.exponent;
-  }
-  return drag.factor;
+  drag = {slip > 0 ? factor(Series::of_variable(slip)) : factor(slip), slip};
+  drag.factor.reach = std::min(drag.factor.reach, near_slip);
+  if (fluid.drag_factor_sum == 0) fluid.drag_exponent = drag_exponent(drag.factor);
+  return drag.factor.term[0];
 }
 
 template <class Drag>
