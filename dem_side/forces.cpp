@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "dem_side/act_on_lone.hpp"
 #include "dem_side/drag_closures.hpp"
 #include "dem_side/implicit_drag.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 // Within this of the slip its drag factor follows the series: with an exponent between 1 and 2 it is good to
 // 3e-7.
 constexpr double near_slip = 0.05;
-
-// Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
-// particle that touches nothing is zero or a last bit of its weight.
-bool touches(const Vec3& contact, const Vec3& weight) {
-  return dot(contact, contact) > 1e-20 * dot(weight, weight);
-}
 
 }  // namespace
 
@@ -55,15 +50,6 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
       attach(DragClosure{[](auto... of) { return rong(of...); }, rong_range});
       break;
   }
-}
-
-/// beta of a fluid all around it; the law is asked where the slip has changed.
-template <class Drag>
-[[gnu::always_inline]] inline double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid,
-                                                              double diameter, double slip) {
-  const double change = slip / fluid.drag.slip - 1;
-  if (std::abs(change) < fluid.drag.factor.reach) return fluid.drag.factor.at(change);
-  return new_drag_factor(law, fluid, diameter, slip);
 }
 
 /// At the window's first step the drag's exponent is noted as well.
@@ -141,7 +127,7 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   } else if (with_gradients || half_step_ || dem_.has_stream()) {
     for (int i = 0; i < particles.count; ++i) act_on_any<with_gradients>(drag_law, step, i);
   } else {
-    act_on_lone(drag_law, step);
+    have_wide ? act_on_lone_wide(drag_law, step) : act_on_lone(drag_law, step);
   }
   for (Vec3 WindowImpulses::*part : WindowImpulses::parts)
     force_sums_.*part += step.length / dem_.time_step() * (step.sums.*part);
@@ -153,55 +139,6 @@ template <bool with_gradients, class Drag>
   Found found = find_forces<with_gradients>(drag_law, step, i);
   move_alone<with_gradients>(step, i, found);
   step.give(i, force_on<with_gradients>(step, i, found));
-}
-
-/// Most particles are by themselves, in one fluid, and feel its drag and what is constant: for them the same
-/// in fewer words.
-template <class Drag>
-void FluidForces::act_on_lone(const Drag& drag_law, DemStep& step) {
-  const ParticleArrays& particles = step.particles;
-  const Vec3 constant = parameters_.constant, gravity = step.gravity, of_script = step.of_script;
-  const double length = step.length;
-  double moved = 0, heavy_mass = 0;
-  Vec3 drags, pressures, left_overs, contacts;
-  for (int i = 0; i < particles.count; ++i) {
-    fetch_ahead(step.rows, i, particles.count);
-    CarriedRow& row = carried_by(step.rows, i);
-    const int mask = particles.mask[i];
-    if (row.alone == 0 || !dem_.integrates_sphere(mask)) {
-      act_on_any<false>(drag_law, step, i);
-      continue;
-    }
-    CarriedFluid& fluid = row.fluid[row.alone > 1];
-    const double mass = particles.mass[i], heavy = dem_.has_weight(mask) ? mass : 0;
-    const Vec3 velocity = vec3(particles.velocity[i]), slip = fluid.velocity - velocity;
-    const double beta = drag_factor(drag_law, fluid, 2 * particles.radius[i], norm(slip));
-    const Vec3 weight = heavy * gravity, weight_of_script = heavy * of_script;
-    const Vec3 contact = vec3(particles.force[i]) - weight_of_script;
-    const Vec3 steady = fluid.pressure_force + fluid.left_over_force;
-    const Vec3 drag = implicit_drag(beta, beta * slip, contact + weight + constant + steady, mass, length);
-    row.path += length * velocity;
-    ++row.contacts.evaluations;
-    fluid.drag_impulse += length * drag;
-    fluid.drag_factor_sum += beta;
-    if (touches(contact, weight_of_script)) {
-      ++row.contacts.touching;
-      row.contacts.impulse += length * contact;
-    }
-    ++moved;
-    heavy_mass += heavy;
-    drags += drag;
-    pressures += fluid.pressure_force;
-    left_overs += fluid.left_over_force;
-    contacts += contact;
-    step.give(i, drag + steady + constant + (weight - weight_of_script));
-  }
-  step.sums.drag += drags;
-  step.sums.pressure += pressures;
-  step.sums.left_over += left_overs;
-  step.sums.contact += contacts;
-  step.sums.gravity += heavy_mass * gravity;
-  step.sums.constant += moved * constant;
 }
 
 // The loop over particles waits for nothing if these become part of it.
@@ -224,7 +161,7 @@ template <bool with_gradients, class Drag>
   const Vec3 contact = vec3(particles.force[i]) - (particles.in_clump(i) ? Vec3{} : weight_of_script);
   found.own = constant + (weight - weight_of_script);
   found.others = contact + weight + constant;
-  found.touches = touches(contact, weight_of_script);
+  found.touches = touches(dot(contact, contact), dot(weight_of_script, weight_of_script));
   row.contacts.touching += found.touches;
   ++row.contacts.evaluations;
   if (!half_step_)  // by the velocity of the half step: what the position has moved with

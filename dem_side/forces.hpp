@@ -203,7 +203,11 @@ class FluidForces {
   static void turn_clumps(const ParticleArrays& particles, const std::vector<Vec3>& given);
   static void require_known_for_clumps(const ForceParameters& parameters);  // InputError
   template <class Drag>
+  void act_on_each_lone(const Drag& drag_law, DemStep& step);
+  template <class Drag>
   void act_on_lone(const Drag& drag_law, DemStep& step);
+  template <class Drag>
+  void act_on_lone_wide(const Drag& drag_law, DemStep& step);
   template <bool with_gradients, class Drag>
   void act_on_any(const Drag& drag_law, DemStep& step, int i);
   template <bool with_gradients>
