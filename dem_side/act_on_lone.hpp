@@ -22,7 +22,7 @@ inline bool touches(double contact_squared, double weight_squared) {
 template <class Drag>
 [[gnu::always_inline]] inline double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid,
                                                               double diameter, double slip) {
-  const double change = slip / fluid.drag.slip - 1;
+  const double change = slip * fluid.drag.per_slip - 1;
   if (std::abs(change) < fluid.drag.factor.reach) return fluid.drag.factor.at(change);
   return new_drag_factor(law, fluid, diameter, slip);
 }
@@ -59,7 +59,7 @@ template <class Drag>
     const Four weight_of_script = heavy * of_script;
     const Four contact = Four{force[0], force[1], force[2], 0} - weight_of_script;
     const Four own = constant + (heavy * gravity - weight_of_script), steady = pressure + left_over;
-    const double phi = mean_decay(beta * length / mass);
+    const double phi = mean_decay(beta * (length / mass));
     Four drag = (phi * beta) * slip + (phi - 1) * (contact + weight_of_script + own + steady);
     const Four given = drag + steady + own;
     drags += drag;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 #include "coupler/base/series.hpp"
@@ -19,8 +20,8 @@ namespace demvof {
 /// The drag factor near the slip s_0 for which the law was last asked: its power series in s/s_0 - 1, within
 /// its reach.
 struct LocalDrag {
-  Series factor;    // kg/s
-  double slip = 0;  // s_0, m/s; 0: the law is to be asked
+  Series factor;                                              // kg/s
+  double per_slip = std::numeric_limits<double>::infinity();  // 1/s_0, s/m; infinite: the law is to be asked
 };
 
 /// Of one fluid, as if the particle lay wholly in it, but for what it received. What every DEM step needs

@@ -62,7 +62,7 @@ template <class Drag>
                : law.factor(fluid, diameter, speed, drag_count_);
   };
   LocalDrag& drag = fluid.drag;
-  drag = {slip > 0 ? factor(Series::of_variable(slip)) : factor(slip), slip};
+  drag = {slip > 0 ? factor(Series::of_variable(slip)) : factor(slip), 1 / slip};
   drag.factor.reach = std::min(drag.factor.reach, near_slip);
   if (fluid.drag_factor_sum == 0) fluid.drag_exponent = drag_exponent(drag.factor);
   return drag.factor.term[0];

@@ -24,7 +24,7 @@ struct Series {
     result.term[1] = x;
     return result;
   }
-  double at(double t) const { return term[0] + t * (term[1] + t * (term[2] + t * term[3])); }
+  double at(double t) const { return (term[0] + t * term[1]) + t * t * (term[2] + t * term[3]); }
 };
 
 inline double value(double a) {
