@@ -20,6 +20,8 @@ namespace demvof {
 /// The drag factor near the slip s_0 for which the law was last asked: its power series in s/s_0 - 1, within
 /// its reach.
 struct LocalDrag {
+  static constexpr double near_slip = 0.05;  // where the reach ends at the latest: every law is good to 3e-7
+
   Series factor;                                              // kg/s
   double per_slip = std::numeric_limits<double>::infinity();  // 1/s_0, s/m; infinite: the law is to be asked
 };

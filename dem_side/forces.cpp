@@ -11,13 +11,7 @@
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
-namespace {
-
-// Within this of the slip its drag factor follows the series: with an exponent between 1 and 2 it is good to
-// 3e-7.
-constexpr double near_slip = 0.05;
-
-}  // namespace
+namespace {}  // namespace
 
 FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem), parameters_(parameters) {
   if (dem_.has_clumps()) require_known_for_clumps(parameters);
@@ -63,7 +57,7 @@ template <class Drag>
   };
   LocalDrag& drag = fluid.drag;
   drag = {slip > 0 ? factor(Series::of_variable(slip)) : factor(slip), 1 / slip};
-  drag.factor.reach = std::min(drag.factor.reach, near_slip);
+  drag.factor.reach = std::min(drag.factor.reach, LocalDrag::near_slip);
   if (fluid.drag_factor_sum == 0) fluid.drag_exponent = drag_exponent(drag.factor);
   return drag.factor.term[0];
 }

@@ -87,9 +87,10 @@ using std::exp, std::log10, std::pow, std::sqrt;
 /// a b' = p a' b.
 inline Series pow(const Series& a, double p) {
   Series power(std::pow(a.term[0], p));
+  const double per_a = 1 / a.term[0];
   for (int k = 1; k < Series::terms; ++k) {
-    for (int j = 1; j <= k; ++j) power.term[k] += (p * j - (k - j)) * a.term[j] * power.term[k - j];
-    power.term[k] /= k * a.term[0];
+    for (int j = 1; j <= k; ++j) power.term[k] += (p * j - (k - j)) * (per_a * a.term[j]) * power.term[k - j];
+    power.term[k] *= 1.0 / k;
   }
   power.reach = a.reach;
   return power;
