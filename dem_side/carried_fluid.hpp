@@ -88,6 +88,10 @@ struct CarriedGradientsRow {
   CarriedGradients fluid[2];
 };
 
+// Beside these vectors is what a step adds up with them (act_on_lone.hpp).
+static_assert(offsetof(CarriedRow, contacts.evaluations) == offsetof(CarriedRow, path) + sizeof(Vec3));
+static_assert(offsetof(CarriedFluid, drag_factor_sum) == offsetof(CarriedFluid, drag_impulse) + sizeof(Vec3));
+
 constexpr const char* rows_name = "demvof_fluid";
 constexpr const char* gradient_rows_name = "demvof_fluid_gradients";
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/base/vec3.hpp"
@@ -82,9 +83,15 @@ class Dem {
 
   /// Throws RunError when not everything that LIGGGHTS has printed came to its log.
   void require_whole_log() const;
-  /// Writes particles, their rows and contacts, and the state of the script's fixes. Collective; the run goes
-  /// on as if nothing had happened.
+  /// Writes particles and contacts, and the state of the script's fixes. Collective; the run goes on as if
+  /// nothing had happened.
   void write_restart(const std::filesystem::path& file);
+  /// Writes the rows of all particles with the forces on them; file: of rank 0. Collective. set_up() of a run
+  /// that goes on finds them beside its restart file.
+  void write_rows(const std::filesystem::path& file) const;
+  static std::filesystem::path rows_file(std::filesystem::path restart_file) {
+    return restart_file += "_rows";
+  }
   RandomStates random_states();                // on rank 0 of all ranks; collective
   void go_on_from(const RandomStates& saved);  // after set_up
   long step() const;                           // of LIGGGHTS, the script's own included
@@ -164,6 +171,13 @@ class Dem {
   void by_the_script(Work&& work);
   void add_fix(std::vector<std::string> words);
   void add_rows(const std::string& name, int width, bool for_ghosts);
+  void read_rows();
+  /// What of local particles is in that file.
+  struct Columns {
+    double* const* of;
+    int width;
+  };
+  std::vector<Columns> columns() const;
   Stream found_stream(int i) const;
   static void call_back(void* self, long step, int count, int* id, double** position, double** external);
 
@@ -173,8 +187,9 @@ class Dem {
   AddForces add_forces_;
   std::unique_ptr<Clumps> clumps_;
   std::optional<Vec3> gravity_;
-  bool continued_;
-  LAMMPS_NS::FixInsertStream* stream_ = nullptr;  // the first of the script; all share its rows
+  std::vector<std::pair<std::string, int>> kept_rows_;  // names and widths
+  std::filesystem::path restart_file_;                  // empty: a start
+  LAMMPS_NS::FixInsertStream* stream_ = nullptr;        // the first of the script; all share its rows
   int integrated_ = 0, turned_ = 0, frozen_ = 0, held_ = 0, weighed_ = 0;  // group bits
 };
 
