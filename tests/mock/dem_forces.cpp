@@ -156,7 +156,6 @@ void expect_account(const ForceParameters& parameters) {
                         impulses.constant + impulses.contact + impulses.gravity;
     EXPECT_LT(norm(change - booked), 1e-12 * norm(impulses.gravity)) << n;
     touched = touched || norm(impulses.contact) > 1e-3 * norm(impulses.gravity);
-
     Vec3 received;
     for (const auto& particle : all_of(forces.contributions(), *scene.dem)) received += particle.drag_impulse;
     MPI_Allreduce(MPI_IN_PLACE, &received.x, 3, MPI_DOUBLE, MPI_SUM, scene.dem->world());
@@ -174,7 +173,6 @@ TEST(DemForces, AccountForEveryImpulse) {
   expect_account(parameters);
 }
 
-// The loop for particles that feel drag and what is constant, and nothing else.
 TEST(DemForces, AccountForEveryImpulseOfLoneParticles) {
   ForceParameters parameters;
   parameters.constant = {1e-5, 0, -2e-5};
