@@ -19,6 +19,13 @@ void require_spread(const WakeWidth& width, double diameter) {
       width(diameter), diameter));
 }
 
+/// CarriedRow::alone. A force that is left over by a fluid is felt outside of it, too.
+double alone_in(const CarriedRow& row) {
+  if (row.waited > 0 || norm(row.surface.normal) > 0 || row.feels(0) == row.feels(1)) return 0;
+  const int k = row.feels(0) ? 0 : 1;
+  return row.share(k) == 1 && (static_cast<int>(row.owed) & ~(1 << k)) == 0 ? 1 + k : 0;
+}
+
 }  // namespace
 
 void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diameter) {
@@ -64,6 +71,7 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
     }
     row.waited = before.waited;
     row.known = 1;
+    row.alone = alone_in(row);
     carried_by(rows, i) = row;
   }
   begun_ = true;

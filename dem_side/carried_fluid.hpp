@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
+#include "coupler/base/series.hpp"
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
 #include "coupler/closures/size_mix.hpp"
@@ -15,29 +17,25 @@
 
 namespace demvof {
 
-/// The drag factor near the slip for which it was last evaluated,
-///
-///   beta(s) = beta_0 (1 + (n - 1) (s/s_0 - 1))       n: the exponent there (implicit_drag.hpp)
-///
-/// good to (n - 1)(2 - n)/2 (s/s_0 - 1)^2 where the drag goes like s^n.
+/// The drag factor near the slip s_0 for which the law was last asked: its power series in s/s_0 - 1, within
+/// its reach.
 struct LocalDrag {
-  double factor = 0;    // beta_0, kg/s
-  double slip = 0;      // s_0, m/s; 0: not evaluated
-  double exponent = 0;  // n, -; 0: not asked for yet
+  static constexpr double near_slip = 0.05;  // where the reach ends at the latest: every law is good to 3e-7
 
-  double at(double s) const { return factor * (1 + (exponent - 1) * (s / slip - 1)); }
+  Series factor;                                              // kg/s
+  double per_slip = std::numeric_limits<double>::infinity();  // 1/s_0, s/m; infinite: the law is to be asked
 };
 
 /// Of one fluid, as if the particle lay wholly in it, but for what it received. What every DEM step needs
 /// comes first: fewer lines of memory.
 struct CarriedFluid {
-  Vec3 velocity;        // u, m/s
-  Vec3 pressure_force;  // N
-  Vec3 drag_impulse;    // received in this window, lift and added mass included, N s
-  double drag_factor_sum =
-      0;  // of this window: sum of beta over the evaluations, with the wetted share, kg/s
+  Vec3 velocity;         // u, m/s
+  Vec3 pressure_force;   // N
+  Vec3 left_over_force;  // N
   LocalDrag drag;
-  Vec3 left_over_force;      // N
+  Vec3 drag_impulse;  // received in this window, lift and added mass included, N s
+  double drag_factor_sum =
+      0;                     // of this window: sum of beta over the evaluations, with the wetted share, kg/s
   double density = 0;        // rho, kg/m3; 0: this fluid is not here
   double viscosity = 0;      // mu, Pa s
   double void_fraction = 1;  // eps, -
@@ -61,8 +59,11 @@ struct CarriedContacts {
 };
 
 struct CarriedRow {
-  CarriedContacts contacts;
+  /// 1 + k: in this window it is wholly in fluid k, sees no surface, and nothing else is to be known of it.
+  /// 0: more is, or it is new.
+  double alone = 0;
   Vec3 path;  // covered in this window, m
+  CarriedContacts contacts;
   // s, without a fluid that there is: new since the last window began. The fluid's pressure has yet to act.
   double waited = 0;
   double known = 0;  // 1: it was there when a window began
@@ -87,6 +88,10 @@ struct CarriedGradientsRow {
   CarriedGradients fluid[2];
 };
 
+// Beside these vectors is what a step adds up with them (act_on_lone.hpp).
+static_assert(offsetof(CarriedRow, contacts.evaluations) == offsetof(CarriedRow, path) + sizeof(Vec3));
+static_assert(offsetof(CarriedFluid, drag_factor_sum) == offsetof(CarriedFluid, drag_impulse) + sizeof(Vec3));
+
 constexpr const char* rows_name = "demvof_fluid";
 constexpr const char* gradient_rows_name = "demvof_fluid_gradients";
 
@@ -101,8 +106,11 @@ Carried& carried_by(double* const* rows, int i) {
 inline void fetch_ahead(double* const* rows, int i, int count) {
   constexpr int particles_ahead = 8, line = 64;
   if (i + particles_ahead >= count) return;
-  const auto* row = reinterpret_cast<const char*>(rows[i + particles_ahead]);
-  for (std::size_t byte = 0; byte < sizeof(CarriedRow); byte += line) __builtin_prefetch(row + byte, 1);
+  const CarriedRow& row = carried_by(rows, i + particles_ahead);
+  __builtin_prefetch(&row, 1);
+  const auto* fluid = reinterpret_cast<const char*>(&row.fluid[row.alone > 1]);
+  for (std::size_t byte = 0; byte < offsetof(CarriedFluid, density); byte += line)
+    __builtin_prefetch(fluid + byte, 1);
 }
 
 /// The surface at the start of a window; what is not told counts as not there.

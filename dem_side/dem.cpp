@@ -18,7 +18,6 @@
 #include "dem_side/script_advice.hpp"
 #include "dem_side/script_requirements.hpp"
 #include "domain.h"
-#include "fix_external.h"
 #include "fix_gravity.h"
 #include "fix_insert_stream.h"
 #include "fix_mesh_surface.h"
@@ -56,10 +55,6 @@ class Hush {
 
 namespace fs = std::filesystem;
 
-constexpr const char* external_fix = "demvof_fluid_force";
-constexpr const char* last_forces =
-    "demvof_last_forces";  // rows for restart files: force, N, and torque, N m
-
 // The last error that LIGGGHTS wrote; its own words say best what it did not like.
 std::string error_line(const fs::path& log) {
   std::fflush(nullptr);
@@ -82,7 +77,7 @@ void for_each_fix(const LAMMPS_NS::LAMMPS& liggghts, Function&& function) {
 }  // namespace
 
 Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::path& restart_file)
-    : world_(world), script_(script), log_(log), continued_(!restart_file.empty()) {
+    : world_(world), script_(script), log_(log), restart_file_(restart_file) {
   if (!fs::is_regular_file(script))
     throw InputError(fmt::format("particles.script: there is no file {}", script.string()));
   fs::current_path(script.parent_path());
@@ -144,27 +139,9 @@ void Dem::by_the_script(Work&& work) {
 // LIGGGHTS would begin a run with forces from the velocities of the whole step; the step before used those of
 // the half. The forces of that are part of the state.
 void Dem::set_up() {
-  add_particle_rows(last_forces, 6);
   by_the_script([&] { liggghts_->input->one("run 0 post no"); });
-  if (!continued_) return;
-  LAMMPS_NS::Atom& atom = *liggghts_->atom;
-  double* const* rows = particle_rows(last_forces);
-  for (int i = 0; i < atom.nlocal; ++i) {
-    std::copy_n(rows[i], 3, atom.f[i]);
-    std::copy_n(rows[i] + 3, 3, atom.torque[i]);
-  }
-  if (has_clumps()) clumps_->renew_forces();
-}
-
-void Dem::renew_added_forces() {
-  const ParticleArrays local = particles();
-  double* const* added = added_forces();
-  double* const* force = liggghts_->atom->f;
-  for (int i = 0; i < local.count; ++i)
-    for (int axis = 0; axis < 3; ++axis) force[i][axis] -= added[i][axis];
-  add_forces_(local, added);
-  for (int i = 0; i < local.count; ++i)
-    for (int axis = 0; axis < 3; ++axis) force[i][axis] += added[i][axis];
+  if (restart_file_.empty()) return;
+  read_rows();
   if (has_clumps()) clumps_->renew_forces();
 }
 
@@ -182,12 +159,6 @@ void Dem::require_whole_log() const {
 }
 
 void Dem::write_restart(const fs::path& file) {
-  const LAMMPS_NS::Atom& atom = *liggghts_->atom;
-  double* const* rows = particle_rows(last_forces);
-  for (int i = 0; i < atom.nlocal; ++i) {
-    std::copy_n(atom.f[i], 3, rows[i]);
-    std::copy_n(atom.torque[i], 3, rows[i] + 3);
-  }
   guarded([&] {
     // What LIGGGHTS knows of contacts is in its neighbour list; the file takes what is with the particles.
     for_each_fix(*liggghts_, [](LAMMPS_NS::Fix& fix) {
@@ -360,10 +331,15 @@ void Dem::add_fix(std::vector<std::string> words) {
 }
 
 void Dem::add_rows(const std::string& name, int width, bool for_ghosts) {
-  // restart data, communication to ghosts and back; zeros for new particles
-  std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "yes", "no", "no"};
-  if (for_ghosts) std::swap(words[5], words[6]);
-  words.insert(words.end(), std::max(width, 2), "0.0");  // LIGGGHTS takes no vector of one
+  // communication to ghosts and back; zeros for new particles. LIGGGHTS would put them into its restart file
+  // from one buffer for all particles: row_file.cpp
+  width = std::max(width, 2);  // LIGGGHTS takes no vector of one
+  std::vector<std::string> words = {name, "all", "property/atom", name, "vector", "no", "no", "no"};
+  if (for_ghosts)
+    words[6] = "yes";
+  else
+    kept_rows_.emplace_back(name, width);
+  words.insert(words.end(), width, "0.0");
   add_fix(std::move(words));
 }
 
@@ -374,23 +350,6 @@ void Dem::bring_to_ghosts(const std::string& name) {
 
 double* const* Dem::particle_rows(const std::string& name) const {
   return liggghts_->modify->find_fix_id(name.c_str())->array_atom;
-}
-
-void Dem::attach(AddForces add_forces) {
-  add_forces_ = std::move(add_forces);
-  // Created after everything in the script, so that its post_force comes last and sees all forces.
-  add_fix({external_fix, "all", "external", "pf/callback", "1", "1"});
-  auto* fix = dynamic_cast<LAMMPS_NS::FixExternal*>(liggghts_->modify->find_fix_id(external_fix));
-  fix->set_callback(&Dem::call_back, this);
-}
-
-double* const* Dem::added_forces() const {
-  return dynamic_cast<LAMMPS_NS::FixExternal*>(liggghts_->modify->find_fix_id(external_fix))->fexternal;
-}
-
-void Dem::call_back(void* self, long, int, int*, double**, double** external) {
-  const Dem& dem = *static_cast<Dem*>(self);
-  dem.add_forces_(dem.particles(), external);
 }
 
 }  // namespace demvof

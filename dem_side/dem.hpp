@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupler/base/vec3.hpp"
@@ -82,9 +83,15 @@ class Dem {
 
   /// Throws RunError when not everything that LIGGGHTS has printed came to its log.
   void require_whole_log() const;
-  /// Writes particles, their rows and contacts, and the state of the script's fixes. Collective; the run goes
-  /// on as if nothing had happened.
+  /// Writes particles and contacts, and the state of the script's fixes. Collective; the run goes on as if
+  /// nothing had happened.
   void write_restart(const std::filesystem::path& file);
+  /// Writes the rows of all particles with the forces on them; file: of rank 0. Collective. set_up() of a run
+  /// that goes on finds them beside its restart file.
+  void write_rows(const std::filesystem::path& file) const;
+  static std::filesystem::path rows_file(std::filesystem::path restart_file) {
+    return restart_file += "_rows";
+  }
   RandomStates random_states();                // on rank 0 of all ranks; collective
   void go_on_from(const RandomStates& saved);  // after set_up
   long step() const;                           // of LIGGGHTS, the script's own included
@@ -95,9 +102,9 @@ class Dem {
   int type(int i) const;  // of it, from 1
   /// True when LIGGGHTS moves local particle i by the forces on it; false for particles that are frozen,
   /// moved by prescription or not integrated at all. Clumps know none of that.
-  bool integrates(int i) const {
-    return clumps_->has(i) || ((mask(i) & integrated_) && !(mask(i) & frozen_));
-  }
+  bool integrates(int i) const { return clumps_->has(i) || integrates_sphere(mask(i)); }
+  /// The same of a sphere by itself with this mask.
+  bool integrates_sphere(int mask) const { return (mask & integrated_) && !(mask & frozen_); }
   bool held(int mask) const { return mask & held_; }  // by a fix of the script
   /// An insertion that moves local particle i at the velocity that it prescribes (fix insert/stream, until
   /// the particle has left the insertion's volume): it takes all force from it. With the last step it gives
@@ -108,6 +115,7 @@ class Dem {
     Vec3 change;            // of the velocity by that, m/s
   };
   Stream stream(int i) const { return stream_ ? found_stream(i) : Stream{}; }
+  bool has_stream() const { return stream_; }
   /// True when it turns such a particle by the torque on it.
   bool turns(int mask) const { return (mask & turned_) && !(mask & frozen_); }
   /// True when fix gravity acts on a particle with this mask.
@@ -148,13 +156,12 @@ class Dem {
   NearPairs near_pairs() const;
   std::vector<NearWall> near_walls(double radii) const;
 
-  /// Calls add_forces in every DEM step, after all other forces and torques are known; external: local
-  /// particle
-  /// -> force to add, N, to be set for every particle. A torque is added to particles.torque. Called in
-  /// set_up() too.
-  using AddForces = std::function<void(const ParticleArrays& particles, double* const* external)>;
+  /// Calls add_forces in every DEM step, after all other forces and torques are known: to add to
+  /// particles.force and particles.torque, and in the last step of a run to note by local particle what it
+  /// has added, N; added: nullptr in other steps. Called in set_up() too.
+  using AddForces = std::function<void(const ParticleArrays& particles, double* const* added)>;
   void attach(AddForces add_forces);
-  /// What the last step's call has added to each local particle, N.
+  /// What the last step of the last run has added to each local particle, N.
   double* const* added_forces() const;
 
  private:
@@ -164,6 +171,13 @@ class Dem {
   void by_the_script(Work&& work);
   void add_fix(std::vector<std::string> words);
   void add_rows(const std::string& name, int width, bool for_ghosts);
+  void read_rows();
+  /// What of local particles is in that file.
+  struct Columns {
+    double* const* of;
+    int width;
+  };
+  std::vector<Columns> columns() const;
   Stream found_stream(int i) const;
   static void call_back(void* self, long step, int count, int* id, double** position, double** external);
 
@@ -173,8 +187,9 @@ class Dem {
   AddForces add_forces_;
   std::unique_ptr<Clumps> clumps_;
   std::optional<Vec3> gravity_;
-  bool continued_;
-  LAMMPS_NS::FixInsertStream* stream_ = nullptr;  // the first of the script; all share its rows
+  std::vector<std::pair<std::string, int>> kept_rows_;  // names and widths
+  std::filesystem::path restart_file_;                  // empty: a start
+  LAMMPS_NS::FixInsertStream* stream_ = nullptr;        // the first of the script; all share its rows
   int integrated_ = 0, turned_ = 0, frozen_ = 0, held_ = 0, weighed_ = 0;  // group bits
 };
 

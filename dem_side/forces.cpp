@@ -6,37 +6,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "coupler/closures/lift.hpp"
-#include "coupler/closures/spin_lift.hpp"
-#include "coupler/config/enum_names.hpp"
+#include "dem_side/act_on_lone.hpp"
 #include "dem_side/drag_closures.hpp"
 #include "dem_side/implicit_drag.hpp"
 
 namespace demvof {
-namespace {
-
-// Relative change of the slip over which the drag's slope is taken.
-constexpr double tangent_step = 1e-3;
-// Within this of the slip its drag factor follows the slope: with n between 1 and 2 it is good to 3e-6.
-constexpr double near_slip = 5e-3;
-
-// Gravity is added by LIGGGHTS as the same product of the same numbers, so that what is left of a
-// particle that touches nothing is zero or a last bit of its weight.
-bool touches(const Vec3& contact, const Vec3& weight) {
-  return dot(contact, contact) > 1e-20 * dot(weight, weight);
-}
-
-constexpr Vec3 WindowImpulses::*window_impulses[] = {
-    &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
-    &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
-
-void store(double* components, const Vec3& vector) {
-  components[0] = vector.x;
-  components[1] = vector.y;
-  components[2] = vector.z;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem), parameters_(parameters) {
   if (dem_.has_clumps()) require_known_for_clumps(parameters);
@@ -51,88 +26,52 @@ FluidForces::FluidForces(Dem& dem, const ForceParameters& parameters) : dem_(dem
       attach(NoDrag{});
       break;
     case DragLaw::schiller_naumann:
-      attach(DragClosure<schiller_naumann>{schiller_naumann_range});
+      attach(DragClosure{[](auto... of) { return schiller_naumann(of...); }, schiller_naumann_range});
       break;
     case DragLaw::gidaspow:
-      attach(DragClosure<gidaspow>{gidaspow_range});
+      attach(DragClosure{[](auto... of) { return gidaspow(of...); }, gidaspow_range});
       break;
     case DragLaw::di_felice:
-      attach(DragClosure<di_felice>{di_felice_range});
+      attach(DragClosure{[](auto... of) { return di_felice(of...); }, di_felice_range});
       break;
     case DragLaw::koch_hill:
-      attach(DragClosure<koch_hill>{koch_hill_range});
+      attach(DragClosure{[](auto... of) { return koch_hill(of...); }, koch_hill_range});
       break;
     case DragLaw::beetstra:
       attach(BeetstraOfSizes{});
       break;
     case DragLaw::rong:
-      attach(DragClosure<rong>{rong_range});
+      attach(DragClosure{[](auto... of) { return rong(of...); }, rong_range});
       break;
   }
-}
-
-/// beta of a fluid all around it, evaluated where the slip has changed.
-template <class Drag>
-[[gnu::always_inline]] inline double FluidForces::drag_factor(const Drag& law, CarriedFluid& fluid,
-                                                              double diameter, double slip) {
-  const LocalDrag& drag = fluid.drag;
-  const bool near = drag.slip > 0 && drag.exponent > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip;
-  return near ? drag.at(slip) : new_drag_factor(law, fluid, diameter, slip);
 }
 
 /// At the window's first step the drag's exponent is noted as well.
 template <class Drag>
 [[gnu::noinline]] double FluidForces::new_drag_factor(const Drag& law, CarriedFluid& fluid, double diameter,
                                                       double slip) {
-  const auto factor = [&](double speed, ClosureCount& count) {
+  const auto factor = [&](const auto& speed) -> Series {
     return own_wake_width_
-               ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), count)
-               : law.factor(fluid, diameter, speed, count);
+               ? without_own_wake(law, fluid, diameter, speed, (*own_wake_width_)(diameter), drag_count_)
+               : law.factor(fluid, diameter, speed, drag_count_);
   };
   LocalDrag& drag = fluid.drag;
-  const auto find_exponent = [&] {
-    ClosureCount further;
-    drag.exponent = drag_exponent(drag.factor, factor((1 + tangent_step) * drag.slip, further), tangent_step);
-  };
-  if (drag.slip > 0 && std::abs(slip - drag.slip) <= near_slip * drag.slip) {
-    find_exponent();
-    return drag.at(slip);
-  }
-  drag = {factor(slip, drag_count_), slip, 0};
-  if (fluid.drag_factor_sum == 0) {
-    find_exponent();
-    fluid.drag_exponent = drag.exponent;
-  }
-  return drag.factor;
+  drag = {slip > 0 ? factor(Series::of_variable(slip)) : factor(slip), 1 / slip};
+  drag.factor.reach = std::min(drag.factor.reach, LocalDrag::near_slip);
+  if (fluid.drag_factor_sum == 0) fluid.drag_exponent = drag_exponent(drag.factor);
+  return drag.factor.term[0];
 }
 
 template <class Drag>
 void FluidForces::attach(const Drag& drag_law) {
   if (need_gradients(parameters_))
-    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* external) {
-      add_forces<true>(drag_law, particles, external);
+    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* added) {
+      add_forces<true>(drag_law, particles, added);
     });
   else
-    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* external) {
-      add_forces<false>(drag_law, particles, external);
+    dem_.attach([this, drag_law](const ParticleArrays& particles, double* const* added) {
+      add_forces<false>(drag_law, particles, added);
     });
-}
-
-double FluidForces::mean_drag_factor(const CarriedRow& row, int k) {
-  return row.contacts.evaluations > 0 ? row.fluid[k].drag_factor_sum / row.contacts.evaluations : 0;
-}
-
-double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
-  return row.fluid[k].drag_exponent * mean_drag_factor(row, k);
-}
-
-bool FluidForces::moved_by_forces(int i) const {
-  return dem_.integrates(i) && !dem_.stream(i).carries;
-}
-
-double FluidForces::held_share(const CarriedRow& row, int i) const {
-  const CarriedContacts& contacts = row.contacts;
-  return moved_by_forces(i) && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
 }
 
 void FluidForces::first_half_step() {
@@ -150,41 +89,15 @@ double* const* FluidForces::gradient_rows() const {
   return need_gradients(parameters_) ? dem_.particle_rows(gradient_rows_name) : nullptr;
 }
 
-Vec3 FluidForces::lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
-                       const Vec3& slip) {
-  if (parameters_.lift == LiftLaw::none) return {};
-  const double speed = norm(slip), vorticity = norm(gradients.vorticity);
-  const double reynolds = fluid.density * speed * diameter / fluid.viscosity;
-  const bool inside =
-      speed > 0 && saffman_mei_range.contains(reynolds, shear_over_slip(diameter, speed, vorticity));
-  ++lift_count_.evaluations;
-  lift_count_.outside += !inside;
-  return saffman_mei(diameter, fluid.density, fluid.viscosity, slip, gradients.vorticity);
-}
-
-Vec3 FluidForces::spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
-                            const Vec3& spin, const Vec3& slip) {
-  if (parameters_.spin_lift == SpinLiftLaw::none) return {};
-  const bool creeping = parameters_.spin_lift == SpinLiftLaw::rubinow_keller;
-  const SpinLiftRange& range = creeping ? rubinow_keller_range : oesterle_bui_dinh_range;
-  const Vec3 rotation = 0.5 * gradients.vorticity - spin;
-  const double speed = norm(slip);
-  const double reynolds = fluid.density * speed * diameter / fluid.viscosity;
-  const double over_slip = speed > 0 ? spin_over_slip(diameter, speed, norm(rotation)) : 0;
-  ++spin_lift_count_.evaluations;
-  spin_lift_count_.outside += !range.contains(reynolds, over_slip);
-  const double factor = creeping ? 1 : oesterle_bui_dinh(reynolds, over_slip);
-  return spin_lift_force(diameter, fluid.density, factor, rotation, slip);
-}
-
 template <bool with_gradients, class Drag>
-void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external) {
-  const Vec3 constant = parameters_.constant;
+void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* added) {
+  DemStep step{particles, half_step_ ? dem_.time_step() / 2 : dem_.time_step()};
+  step.added = added;
   if (!begun_) {  // Dem::set_up(): the forces before the first step, without fluid
-    for (int i = 0; i < particles.count; ++i) store(external[i], dem_.integrates(i) ? constant : Vec3{});
+    for (int i = 0; i < particles.count; ++i)
+      step.give(i, dem_.integrates(i) ? parameters_.constant : Vec3{});
     return;
   }
-  DemStep step{particles, half_step_ ? dem_.time_step() / 2 : dem_.time_step()};
   step.gravity = dem_.gravity();
   step.of_script = dem_.script_gravity();
   step.rows = dem_.particle_rows(rows_name);
@@ -195,23 +108,31 @@ void FluidForces::add_forces(const Drag& drag_law, const ParticleArrays& particl
   if (step.history) step.history->begin_step();
   if (lubrication_ || dem_.has_clumps()) {
     std::vector<Found> all;
+    std::vector<Vec3> given;
     for (int i = 0; i < particles.count; ++i) all.push_back(find_forces<with_gradients>(drag_law, step, i));
     if (lubrication_) bear_films(step, all);
     for (int i = 0; i < particles.count; ++i) move_alone<with_gradients>(step, i, all[i]);
     if (dem_.has_clumps()) move_as_clumps(step, all);
-    for (int i = 0; i < particles.count; ++i) store(external[i], force_on<with_gradients>(step, i, all[i]));
-    if (dem_.has_clumps()) turn_clumps(particles, external);
-  } else {
     for (int i = 0; i < particles.count; ++i) {
-      fetch_ahead(step.rows, i, particles.count);
-      Found found = find_forces<with_gradients>(drag_law, step, i);
-      move_alone<with_gradients>(step, i, found);
-      store(external[i], force_on<with_gradients>(step, i, found));
+      given.push_back(force_on<with_gradients>(step, i, all[i]));
+      step.give(i, given.back());
     }
+    if (dem_.has_clumps()) turn_clumps(particles, given);
+  } else if (with_gradients || half_step_ || dem_.has_stream()) {
+    for (int i = 0; i < particles.count; ++i) act_on_any<with_gradients>(drag_law, step, i);
+  } else {
+    have_wide ? act_on_lone_wide(drag_law, step) : act_on_lone(drag_law, step);
   }
-  for (Vec3 WindowImpulses::*part : window_impulses)
+  for (Vec3 WindowImpulses::*part : WindowImpulses::parts)
     force_sums_.*part += step.length / dem_.time_step() * (step.sums.*part);
   steps_ += !half_step_;
+}
+
+template <bool with_gradients, class Drag>
+[[gnu::noinline]] void FluidForces::act_on_any(const Drag& drag_law, DemStep& step, int i) {
+  Found found = find_forces<with_gradients>(drag_law, step, i);
+  move_alone<with_gradients>(step, i, found);
+  step.give(i, force_on<with_gradients>(step, i, found));
 }
 
 // The loop over particles waits for nothing if these become part of it.
@@ -234,7 +155,7 @@ template <bool with_gradients, class Drag>
   const Vec3 contact = vec3(particles.force[i]) - (particles.in_clump(i) ? Vec3{} : weight_of_script);
   found.own = constant + (weight - weight_of_script);
   found.others = contact + weight + constant;
-  found.touches = touches(contact, weight_of_script);
+  found.touches = touches(dot(contact, contact), dot(weight_of_script, weight_of_script));
   row.contacts.touching += found.touches;
   ++row.contacts.evaluations;
   if (!half_step_)  // by the velocity of the half step: what the position has moved with
@@ -353,48 +274,6 @@ template <bool with_gradients>
   if (found.moves) return given + found.steady + found.own;
   step.sums.held += given + found.steady;
   return {};
-}
-
-const CarriedRow& FluidForces::carried(int i) const {
-  return carried_by(dem_.particle_rows(rows_name), i);
-}
-
-Vec3 FluidForces::pressure_force(int i) const {
-  const CarriedRow& row = carried(i);
-  return row.share(0) * row.fluid[0].pressure_force + row.share(1) * row.fluid[1].pressure_force;
-}
-
-Vec3 FluidForces::drag_impulse(int i) const {
-  return carried(i).fluid[0].drag_impulse + carried(i).fluid[1].drag_impulse;
-}
-
-std::vector<std::pair<std::string, ClosureCount>> FluidForces::closures() const {
-  std::vector<std::pair<std::string, ClosureCount>> closures;
-  if (parameters_.drag != DragLaw::none) closures.emplace_back(name_of(parameters_.drag), drag_count_);
-  if (parameters_.lift != LiftLaw::none) closures.emplace_back(name_of(parameters_.lift), lift_count_);
-  if (parameters_.spin_lift != SpinLiftLaw::none)
-    closures.emplace_back(name_of(parameters_.spin_lift), spin_lift_count_);
-  if (torque_) closures.emplace_back("torque", torque_->count());
-  if (history_) closures.emplace_back("history", history_->count());
-  if (lubrication_) closures.emplace_back("lubrication", lubrication_->count());
-  return closures;
-}
-
-std::optional<SpinImpulses> FluidForces::spin_impulses() const {
-  return torque_ ? std::optional(torque_->impulses()) : std::nullopt;
-}
-
-WindowImpulses FluidForces::impulses() const {
-  WindowImpulses impulses = force_sums_;
-  for (Vec3 WindowImpulses::*part : window_impulses) impulses.*part *= dem_.time_step();
-  return impulses;
-}
-
-long FluidForces::waiting_for_fluid() const {
-  double* const* rows = dem_.particle_rows(rows_name);
-  long waiting = 0;
-  for (int i = 0, count = dem_.particles().count; i < count; ++i) waiting += carried_by(rows, i).waits();
-  return waiting;
 }
 
 }  // namespace demvof

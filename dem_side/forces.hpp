@@ -43,6 +43,8 @@
 // first_half_step() puts the fluid in, and counts what it gives as the first window's: what a particle gains
 // the fluid loses. One that no force moves gains nothing.
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -77,7 +79,12 @@ struct WindowImpulses {
   Vec3 drag, pressure, left_over, stress;  // on all particles; drag with lift and added mass
   Vec3 held;                        // of these what went to particles that no force moves, and Dem::Stream
   Vec3 contact, gravity, constant;  // on the particles that forces move; contact with films
+
+  static const std::array<Vec3 WindowImpulses::*, 8> parts;
 };
+inline constexpr std::array<Vec3 WindowImpulses::*, 8> WindowImpulses::parts = {
+    &WindowImpulses::drag, &WindowImpulses::pressure, &WindowImpulses::left_over, &WindowImpulses::stress,
+    &WindowImpulses::held, &WindowImpulses::contact,  &WindowImpulses::gravity,   &WindowImpulses::constant};
 
 class FluidForces {
  public:
@@ -151,7 +158,7 @@ class FluidForces {
   template <class Drag>
   void attach(const Drag& drag_law);
   template <bool with_gradients, class Drag>
-  void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* external);
+  void add_forces(const Drag& drag_law, const ParticleArrays& particles, double* const* added);
 
   /// One DEM step, or the first half of one.
   struct DemStep {
@@ -162,7 +169,12 @@ class FluidForces {
     double* const* gradients = nullptr;  // likewise
     FluidTorque* torque = nullptr;
     HistoryForce* history = nullptr;
-    WindowImpulses sums = {};  // of this step alone: fewer numbers in one sum, less round-off
+    double* const* added = nullptr;  // where what is given is noted; nullptr: nowhere
+    WindowImpulses sums = {};        // of this step alone: fewer numbers in one sum, less round-off
+    void give(int i, const Vec3& force) const {
+      for (int axis = 0; axis < 3; ++axis) particles.force[i][axis] += force[axis];
+      if (added) std::copy_n(&force.x, 3, added[i]);
+    }
   };
   /// What a step has found of a particle before its acceleration is known.
   struct Found {
@@ -188,8 +200,16 @@ class FluidForces {
   Found find_forces(const Drag& drag_law, DemStep& step, int i);
   void bear_films(DemStep& step, std::vector<Found>& all);
   void move_as_clumps(DemStep& step, std::vector<Found>& all);
-  static void turn_clumps(const ParticleArrays& particles, double* const* external);
+  static void turn_clumps(const ParticleArrays& particles, const std::vector<Vec3>& given);
   static void require_known_for_clumps(const ForceParameters& parameters);  // InputError
+  template <class Drag>
+  void act_on_each_lone(const Drag& drag_law, DemStep& step);
+  template <class Drag>
+  void act_on_lone(const Drag& drag_law, DemStep& step);
+  template <class Drag>
+  void act_on_lone_wide(const Drag& drag_law, DemStep& step);
+  template <bool with_gradients, class Drag>
+  void act_on_any(const Drag& drag_law, DemStep& step, int i);
   template <bool with_gradients>
   void move_alone(const DemStep& step, int i, Found& found);
   /// What is to be added to LIGGGHTS's force, N.

@@ -21,14 +21,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupler/base/series.hpp"
 #include "coupler/base/vec3.hpp"
 
 namespace demvof {
 
 /// (1 - exp(-x))/x for x >= 0; 1 at x = 0.
 inline double mean_decay(double x) {
-  if (x < 1e-2)  // x^6/5040 left out; divisions would wait for each other
-    return 1 - x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720)))));
+  const double square = x * x;
+  if (x < 1e-2)  // x^6/5040 left out; in pairs that do not wait for each other
+    return 1 -
+           x * ((1.0 / 2 - x * (1.0 / 6)) + square * ((1.0 / 24 - x * (1.0 / 120)) + square * (1.0 / 720)));
   return -std::expm1(-x) / x;
 }
 
@@ -40,10 +43,9 @@ inline Vec3 implicit_drag(double beta, const Vec3& pull, const Vec3& other, doub
 }
 
 /// n = d ln(beta s)/d ln s, -: a change ds of the slip changes the drag by n beta ds. 1 in Stokes's range, 2
-/// in Newton's. From beta at s and at (1 + change) s; a law that jumps between two branches counts as no more
-/// than Newton's.
-inline double drag_exponent(double beta, double beta_further, double change) {
-  return beta > 0 ? std::clamp(1 + (beta_further / beta - 1) / change, 1.0, 2.0) : 1;
+/// in Newton's.
+inline double drag_exponent(const Series& beta) {
+  return beta.term[0] > 0 ? std::clamp(1 + beta.term[1] / beta.term[0], 1.0, 2.0) : 1;
 }
 
 /// theta, -: how much of its own inertia is left to a free particle over a window (s), 1 without drag, 0 when

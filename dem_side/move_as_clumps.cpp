@@ -59,13 +59,13 @@ void FluidForces::move_as_clumps(DemStep& step, std::vector<Found>& all) {
 }
 
 // LIGGGHTS turns a clump by what it gets at the spheres' centres.
-void FluidForces::turn_clumps(const ParticleArrays& particles, double* const* external) {
+void FluidForces::turn_clumps(const ParticleArrays& particles, const std::vector<Vec3>& given) {
   std::vector<Vec3> sums;
   for (int i = 0; i < particles.count; ++i) {
     if (!particles.in_clump(i)) continue;
     const auto index = static_cast<std::size_t>(particles.of_clump[i].clump);
     if (index >= sums.size()) sums.resize(index + 1);
-    sums[index] += vec3(external[i]);
+    sums[index] += given[i];
   }
   for (int i = 0; i < particles.count; ++i) {
     if (!particles.in_clump(i)) continue;

@@ -35,6 +35,7 @@ StateFiles write_particle_restart(const fs::path& run, long window, Dem& dem, in
   StateFiles files;
   if (rank != 0) {
     dem.write_restart("written by rank 0");
+    dem.write_rows("likewise");
     return files;
   }
   fs::create_directories(restart_folder(run, window));
@@ -47,8 +48,13 @@ StateFiles write_particle_restart(const fs::path& run, long window, Dem& dem, in
   PipedFile file(restart_file(run, window));
   dem.write_restart(file.name());
   file.finish();
+  const fs::path rows_file = Dem::rows_file(restart_file(run, window));
+  PipedFile rows(rows_file);
+  dem.write_rows(rows.name());
+  rows.finish();
   add_state_file(files, run, facts_file(run, window));
   add_state_file(files, run, restart_file(run, window));
+  add_state_file(files, run, rows_file);
   return files;
 }
 

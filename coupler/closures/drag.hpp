@@ -17,9 +17,12 @@
 //
 // What is needed: d, mu > 0, rho, slip >= 0, 0 < eps <= 1. Every law is finite and positive there;
 // whether it means anything is told by its range.
+//
+// Slip: double, or Series, which gives the derivatives with the value (coupler/base/series.hpp).
 
 #include <cmath>
 
+#include "coupler/base/series.hpp"
 #include "coupler/base/sphere.hpp"
 
 namespace demvof {
@@ -34,8 +37,9 @@ struct DragRange {
   }
 };
 
-inline double superficial_reynolds(double diameter, double density, double viscosity, double slip,
-                                   double void_fraction) {
+template <class Slip>
+Slip superficial_reynolds(double diameter, double density, double viscosity, const Slip& slip,
+                          double void_fraction) {
   return density * void_fraction * slip * diameter / viscosity;
 }
 
@@ -43,6 +47,9 @@ inline double superficial_reynolds(double diameter, double density, double visco
 inline double stokes_factor(double diameter, double viscosity) {
   return 3 * pi * viscosity * diameter;
 }
+
+/// Where single spheres, and Wen and Yu's suspension, change over to Newton's range, with a jump of 0.4 %.
+constexpr double branch_reynolds = 1000;
 
 /// Schiller and Naumann, Z. Ver. Dtsch. Ing. 77 (1935) 318, as in Pozzetti & Peters (2017), eq. 33:
 ///
@@ -55,11 +62,12 @@ inline double stokes_factor(double diameter, double viscosity) {
 /// slip cancels, which leaves 3 pi mu d (1 + 0.15 Re^0.687): defined at rest, Stokes's drag, and
 /// defined for mu = 0 too. The range ends where eps^-2.65 (below) is as large as the fit's scatter of 5 %.
 constexpr DragRange schiller_naumann_range{2e5, 0.98, 1};
-inline double schiller_naumann(double diameter, double density, double viscosity, double slip,
-                               double /*void_fraction*/ = 1) {
-  const double inertia = density * slip * diameter;  // Re mu
-  if (inertia < 1000 * viscosity)
-    return stokes_factor(diameter, viscosity) * (1 + 0.15 * std::pow(inertia / viscosity, 0.687));
+template <class Slip>
+Slip schiller_naumann(double diameter, double density, double viscosity, Slip slip,
+                      double /*void_fraction*/ = 1) {
+  Slip inertia = density * slip * diameter;  // Re mu
+  if (takes_lower(inertia, branch_reynolds * viscosity))
+    return stokes_factor(diameter, viscosity) * (1 + 0.15 * pow(inertia / viscosity, 0.687));
   return pi / 8 * 0.44 * inertia * diameter;
 }
 
@@ -76,30 +84,33 @@ inline double schiller_naumann(double diameter, double density, double viscosity
 /// it is; no blend between the two is added.
 /// Ergun's columns: eps 0.36 to 0.6, Re/(1 - eps) up to 2500.
 constexpr DragRange gidaspow_range{1500, 0.36, 1};
-inline double gidaspow(double diameter, double density, double viscosity, double slip, double eps) {
-  const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
-  double over_stokes;
+template <class Slip>
+Slip gidaspow(double diameter, double density, double viscosity, Slip slip, double eps) {
+  Slip reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
+  Slip over_stokes = 0;
   if (eps <= 0.8)
     over_stokes = (150 * (1 - eps) + 1.75 * reynolds) / (18 * eps * eps);
-  else if (reynolds < 1000)
-    over_stokes = (1 + 0.15 * std::pow(reynolds, 0.687)) * std::pow(eps, -3.65);
+  else if (takes_lower(reynolds, branch_reynolds))
+    over_stokes = (1 + 0.15 * pow(reynolds, 0.687)) * pow(eps, -3.65);
   else
-    over_stokes = 0.44 / 24 * reynolds * std::pow(eps, -3.65);
+    over_stokes = 0.44 / 24 * reynolds * pow(eps, -3.65);
   return stokes_factor(diameter, viscosity) * eps * over_stokes;
 }
 
 /// C_d Re / 24 of a single sphere after Dallavalle (1948): C_d = (0.63 + 4.8 Re^-0.5)^2. 4 % below
 /// Stokes's drag for Re -> 0.
-inline double dallavalle_over_stokes(double reynolds) {
-  const double root = 0.63 * std::sqrt(reynolds) + 4.8;
+template <class Slip>
+Slip dallavalle_over_stokes(const Slip& reynolds) {
+  const Slip root = 0.63 * sqrt(reynolds) + 4.8;
   return root * root / 24;
 }
 
 /// exp(-(1.5 - log10 Re)^2 / 2), the dip of the voidage exponent around Re = 30; 0 for Re = 0.
-inline double voidage_dip(double reynolds) {
-  if (reynolds == 0) return 0;
-  const double distance = 1.5 - std::log10(reynolds);
-  return std::exp(-distance * distance / 2);
+template <class Slip>
+Slip voidage_dip(const Slip& reynolds) {
+  if (value(reynolds) == 0) return 0;
+  const Slip distance = 1.5 - log10(reynolds);
+  return exp(-distance * distance / 2);
 }
 
 /// Di Felice, Int. J. Multiphase Flow 20 (1994) 153:
@@ -109,11 +120,11 @@ inline double voidage_dip(double reynolds) {
 /// Source: superficial velocity, drag without the pressure gradient force (model A; with chi + 1 it is
 /// the total force of model B). Beds and suspensions, eps 0.4 to 1, Re 0.01 to 1e4.
 constexpr DragRange di_felice_range{1e4, 0.4, 1};
-inline double di_felice(double diameter, double density, double viscosity, double slip, double eps) {
-  const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
-  const double exponent = 3.7 - 0.65 * voidage_dip(reynolds);
-  return stokes_factor(diameter, viscosity) * eps * dallavalle_over_stokes(reynolds) *
-         std::pow(eps, -exponent);
+template <class Slip>
+Slip di_felice(double diameter, double density, double viscosity, Slip slip, double eps) {
+  const Slip reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
+  const Slip exponent = 3.7 - 0.65 * voidage_dip(reynolds);
+  return stokes_factor(diameter, viscosity) * eps * dallavalle_over_stokes(reynolds) * pow(eps, -exponent);
 }
 
 /// Hill, Koch and Ladd, J. Fluid Mech. 448 (2001) 213 and 243; Koch and Hill, Annu. Rev. Fluid Mech. 33
@@ -128,8 +139,9 @@ inline double di_felice(double diameter, double density, double viscosity, doubl
 /// hence eps in front and Re/2. The form linear in Re is used for every Re, as usual in CFD-DEM; the
 /// source has a quadratic first effect of inertia (Re < 20). phi up to 0.641, Re/2 up to 100.
 constexpr DragRange koch_hill_range{200, 0.359, 1};
-inline double koch_hill(double diameter, double density, double viscosity, double slip, double eps) {
-  const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
+template <class Slip>
+Slip koch_hill(double diameter, double density, double viscosity, Slip slip, double eps) {
+  const Slip reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
   const double phi = 1 - eps;
   double slow = 1;
   if (phi >= 0.4)
@@ -150,14 +162,15 @@ inline double koch_hill(double diameter, double density, double viscosity, doubl
 /// is model A. Lattice-Boltzmann, phi 0.1 to 0.6, Re up to 1000. For eps -> 1 it is above a single
 /// sphere's drag, by 16 % at Re = 100 and 69 % at Re = 1000. Of several sizes: size_mix.hpp.
 constexpr DragRange beetstra_range{1000, 0.4, 0.9};
-inline double beetstra(double diameter, double density, double viscosity, double slip, double eps) {
-  const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
+template <class Slip>
+Slip beetstra(double diameter, double density, double viscosity, Slip slip, double eps) {
+  const Slip reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
   const double phi = 1 - eps, square = eps * eps;
   const double slow = 10 * phi / square + square * (1 + 1.5 * std::sqrt(phi));
-  const double power = std::pow(reynolds, (1 + 4 * phi) / 2);  // moves Re's negative powers out of sight
-  const double inertial = 0.413 / (24 * square) *
-                          (reynolds * (1 / eps + 3 * phi * eps) + 8.4 * std::pow(reynolds, 0.657)) * power /
-                          (power + std::pow(10.0, 3 * phi));
+  const Slip power = pow(reynolds, (1 + 4 * phi) / 2);  // moves Re's negative powers out of sight
+  const Slip inertial = 0.413 / (24 * square) *
+                        (reynolds * (1 / eps + 3 * phi * eps) + 8.4 * pow(reynolds, 0.657)) * power /
+                        (power + std::pow(10.0, 3 * phi));
   return stokes_factor(diameter, viscosity) * eps * (slow + inertial);
 }
 
@@ -169,11 +182,11 @@ inline double beetstra(double diameter, double density, double viscosity, double
 /// Source: superficial velocity, drag without the pressure gradient force (model A). Lattice-Boltzmann
 /// flows through packed beds, eps from 0.37, Re up to 3000.
 constexpr DragRange rong_range{3000, 0.37, 1};
-inline double rong(double diameter, double density, double viscosity, double slip, double eps) {
-  const double reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
-  const double exponent = 2.65 * (eps + 1) - (5.3 - 3.5 * eps) * eps * eps * voidage_dip(reynolds);
-  return stokes_factor(diameter, viscosity) * eps * dallavalle_over_stokes(reynolds) *
-         std::pow(eps, -exponent);
+template <class Slip>
+Slip rong(double diameter, double density, double viscosity, Slip slip, double eps) {
+  const Slip reynolds = superficial_reynolds(diameter, density, viscosity, slip, eps);
+  const Slip exponent = 2.65 * (eps + 1) - (5.3 - 3.5 * eps) * eps * eps * voidage_dip(reynolds);
+  return stokes_factor(diameter, viscosity) * eps * dallavalle_over_stokes(reynolds) * pow(eps, -exponent);
 }
 
 }  // namespace demvof

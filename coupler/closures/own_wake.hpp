@@ -21,20 +21,22 @@
 // particle, a void fraction near
 // 1. Unsteady: the wake needs a time of the order of the shorter of rho s^2/mu and s/U to form.
 
+#include "coupler/base/series.hpp"
 #include "coupler/base/sphere.hpp"
 
 namespace demvof {
 
 /// psi, -; 0 without drag. beta: drag factor, kg/s; density, kg/m3; viscosity, Pa s; slip: U, m/s; width: s,
 /// m.
-inline double own_wake_share(double beta, double density, double viscosity, double slip, double width) {
-  if (beta == 0) return 0;
+template <class Number>
+Number own_wake_share(Number beta, double density, double viscosity, Number slip, double width) {
+  if (value(beta) == 0) return 0;
   constexpr double stokes = 0.042329090622827;            // Phi(0)
   constexpr double oseen = 4 * pi * stokes;               // makes the limit of large Re_s
   constexpr double p = 0.76247724, q = 1.64147899;        // fitted
-  const double inertia = oseen * density * slip * width;  // Pa s; with x = inertia / mu:
+  const Number inertia = oseen * density * slip * width;  // Pa s; with x = inertia / mu:
   // Phi = stokes (1 + p x) / (1 + q x + p x^2)
-  const double mobility =
+  const Number mobility =
       (viscosity + p * inertia) / (viscosity * viscosity + q * inertia * viscosity + p * inertia * inertia);
   return beta * stokes * mobility / width;
 }

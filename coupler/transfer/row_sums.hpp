@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sums of rows of doubles with the weights of a particle, in registers as wide as the processor has: what
-// programs are built for by default has half of them. Products and sums are rounded one by one, in the same
-// order on every x86 processor.
+// Sums of rows of doubles with the weights of a particle, in registers as wide as the processor has
+// (base/four.hpp).
 
-#include <cstring>
+#include "coupler/base/four.hpp"
 
 namespace demvof {
 
@@ -21,20 +20,19 @@ namespace row_sums {
 /// Four at a time, and what is left.
 template <int width>
 struct Row {
-  using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
   static constexpr int fours = width / 4, rest = width % 4;
   Four four[fours + 1] = {};
   double one[rest + 1] = {};
 
   [[gnu::always_inline]] void load(const double* from) {
 #pragma GCC unroll 8
-    for (int i = 0; i < fours; ++i) std::memcpy(&four[i], from + 4 * i, sizeof(Four));
+    for (int i = 0; i < fours; ++i) demvof::load(four[i], from + 4 * i);
 #pragma GCC unroll 4
     for (int i = 0; i < rest; ++i) one[i] = from[4 * fours + i];
   }
   [[gnu::always_inline]] void store(double* to) const {
 #pragma GCC unroll 8
-    for (int i = 0; i < fours; ++i) std::memcpy(to + 4 * i, &four[i], sizeof(Four));
+    for (int i = 0; i < fours; ++i) demvof::store(to + 4 * i, four[i]);
 #pragma GCC unroll 4
     for (int i = 0; i < rest; ++i) to[4 * fours + i] = one[i];
   }
@@ -75,14 +73,6 @@ template <int width>
   sum.store(to);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define DEMVOF_WIDE [[gnu::target("avx2")]]
-inline const bool wide = __builtin_cpu_supports("avx2") != 0;
-#else
-#define DEMVOF_WIDE
-constexpr bool wide = false;
-#endif
-
 template <int width>
 DEMVOF_WIDE void spread_wide(const RowRun* runs, int count, const double* row, double* rows) {
   spread<width>(runs, count, row, rows);
@@ -91,22 +81,21 @@ template <int width>
 DEMVOF_WIDE void gather_wide(const RowRun* runs, int count, const double* rows, double* row) {
   gather<width>(runs, count, rows, row);
 }
-#undef DEMVOF_WIDE
 
 }  // namespace row_sums
 
 /// rows += weight row, for the rows of all runs.
 template <int width>
 void spread_row(const RowRun* runs, int count, const double* row, double* rows) {
-  row_sums::wide ? row_sums::spread_wide<width>(runs, count, row, rows)
-                 : row_sums::spread<width>(runs, count, row, rows);
+  have_wide ? row_sums::spread_wide<width>(runs, count, row, rows)
+            : row_sums::spread<width>(runs, count, row, rows);
 }
 
 /// row = sum of weight rows.
 template <int width>
 void gather_rows(const RowRun* runs, int count, const double* rows, double* row) {
-  row_sums::wide ? row_sums::gather_wide<width>(runs, count, rows, row)
-                 : row_sums::gather<width>(runs, count, rows, row);
+  have_wide ? row_sums::gather_wide<width>(runs, count, rows, row)
+            : row_sums::gather<width>(runs, count, rows, row);
 }
 
 }  // namespace demvof

@@ -132,12 +132,7 @@ TEST(DemForces, FollowTheNonlinearEquationOfMotion) {
 // Beads that fall on one another and on a wall, in moving water, with left-over impulses: what LIGGGHTS
 // did to the momentum is what the book-keeping says, window by window, and a cell's drag is the sum of
 // what its particles received.
-TEST(DemForces, AccountForEveryImpulse) {
-  ForceParameters parameters;
-  parameters.viscous_stress = parameters.capillary = true;
-  parameters.added_mass = 0.5;
-  parameters.lift = demvof::LiftLaw::saffman_mei;
-  parameters.constant = {1e-5, 0, -2e-5};
+void expect_account(const ForceParameters& parameters) {
   std::string script = empty_box(1e-5);
   for (int i = 0; i < 5; ++i)
     script += bead({0.02 + 0.0135 * i, 0.05, 0.0014}) + bead({0.0201 + 0.0135 * i, 0.0501, 0.0048});
@@ -161,13 +156,27 @@ TEST(DemForces, AccountForEveryImpulse) {
                         impulses.constant + impulses.contact + impulses.gravity;
     EXPECT_LT(norm(change - booked), 1e-12 * norm(impulses.gravity)) << n;
     touched = touched || norm(impulses.contact) > 1e-3 * norm(impulses.gravity);
-
     Vec3 received;
     for (const auto& particle : all_of(forces.contributions(), *scene.dem)) received += particle.drag_impulse;
     MPI_Allreduce(MPI_IN_PLACE, &received.x, 3, MPI_DOUBLE, MPI_SUM, scene.dem->world());
     EXPECT_LT(norm(received - impulses.drag), 1e-12 * norm(impulses.drag)) << n;
   }
   EXPECT_TRUE(touched);
+}
+
+TEST(DemForces, AccountForEveryImpulse) {
+  ForceParameters parameters;
+  parameters.viscous_stress = parameters.capillary = true;
+  parameters.added_mass = 0.5;
+  parameters.lift = demvof::LiftLaw::saffman_mei;
+  parameters.constant = {1e-5, 0, -2e-5};
+  expect_account(parameters);
+}
+
+TEST(DemForces, AccountForEveryImpulseOfLoneParticles) {
+  ForceParameters parameters;
+  parameters.constant = {1e-5, 0, -2e-5};
+  expect_account(parameters);
 }
 
 // A law that knows the void fraction gets the sampled one; what lies outside its range is counted.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests by what they look at, each with the targets that it needs."""
 
-CLOSURES = {f"^unit_{name}$": [f"unit_{name}"] for name in ("drag", "closures", "own_wake", "implicit_drag")}
+CLOSURES = {f"^unit_{name}$": [f"unit_{name}"] for name in ("drag", "closures", "own_wake", "implicit_drag", "series")}
 EXCHANGE = {f"^unit_{name}$": [f"unit_{name}"] for name in ("exchange_stability", "added_mass_exchange", "relaxation",
                                                             "ledger", "books", "crossing")}
 AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_test.2$": ["limit_solid_test"],

@@ -21,8 +21,8 @@ double drag_coefficient(double reynolds) {
 }
 
 TEST(SchillerNaumann, IsStokesDragAtRest) {
-  EXPECT_DOUBLE_EQ(demvof::schiller_naumann(1e-3, 1000, 2e-3, 0), 3 * pi * 2e-3 * 1e-3);
-  EXPECT_EQ(demvof::schiller_naumann(1e-3, 1000, 0, 0), 0);  // no viscosity, no slip: no drag
+  EXPECT_DOUBLE_EQ(demvof::schiller_naumann(1e-3, 1000, 2e-3, 0.0), 3 * pi * 2e-3 * 1e-3);
+  EXPECT_EQ(demvof::schiller_naumann(1e-3, 1000, 0, 0.0), 0);  // no viscosity, no slip: no drag
 }
 
 TEST(SchillerNaumann, TendsToStokesDragLikeReToTheirPower) {
@@ -44,7 +44,7 @@ TEST(SchillerNaumann, IsConstantInNewtonsRangeAndNearlyContinuousAtItsEdge) {
   EXPECT_NEAR(drag_coefficient(1000.1), 0.44, 1e-12);
   EXPECT_NEAR(drag_coefficient(5e4), 0.44, 1e-12);
   EXPECT_NEAR(drag_coefficient(999.9), 0.44, 0.005);
-  EXPECT_NEAR(demvof::schiller_naumann(1e-3, 1000, 0, 2), pi / 8 * 0.44 * 1e-6 * 1000 * 2, 1e-15);
+  EXPECT_NEAR(demvof::schiller_naumann(1e-3, 1000, 0, 2.0), pi / 8 * 0.44 * 1e-6 * 1000 * 2, 1e-15);
 }
 
 // A 2.7 mm, 2500 kg/m3 bead in water: beta v = (rho_p - rho) V g at 0.3430 m/s.

@@ -33,7 +33,7 @@ TEST(OwnWake, IsTheSteadyOseenSolutionAtAnyReynoldsNumber) {
   const double mu = 0.3, width = 0.02, rho = 7;
   for (double reynolds = 1e-4; reynolds < 1e5; reynolds *= 3) {
     const double slip = reynolds * mu / (rho * width);
-    const double share = own_wake_share(1, rho, mu, slip, width);
+    const double share = own_wake_share(1.0, rho, mu, slip, width);
     EXPECT_NEAR(share * mu * width / phi(reynolds), 1, 4e-4) << reynolds;
   }
 }
@@ -42,13 +42,13 @@ TEST(OwnWake, Limits) {
   // Regularised Stokeslet: d / (s sqrt(2 pi)); wake of a sphere with drag coefficient 0.44: C_d d^2 / (32
   // s^2).
   const double d = 1e-3, s = 5e-3;
-  EXPECT_NEAR(own_wake_share(schiller_naumann(d, 1000, 1e-3, 0), 1000, 1e-3, 0, s), d / s / std::sqrt(2 * pi),
-              1e-9);
-  EXPECT_NEAR(
-      own_wake_share(schiller_naumann(d, 1000, 1e-3, 50), 1000, 1e-3, 50, s) / (0.44 * d * d / (32 * s * s)),
-      1, 1e-4);
-  EXPECT_NEAR(own_wake_share(1, 1000, 0, 2, s), 1 / (4 * pi * 1000 * 2 * s * s), 1e-12) << "no viscosity";
-  EXPECT_EQ(own_wake_share(0, 1000, 0, 0, s), 0);
+  EXPECT_NEAR(own_wake_share(schiller_naumann(d, 1000, 1e-3, 0.0), 1000, 1e-3, 0.0, s),
+              d / s / std::sqrt(2 * pi), 1e-9);
+  EXPECT_NEAR(own_wake_share(schiller_naumann(d, 1000, 1e-3, 50.0), 1000, 1e-3, 50.0, s) /
+                  (0.44 * d * d / (32 * s * s)),
+              1, 1e-4);
+  EXPECT_NEAR(own_wake_share(1.0, 1000, 0, 2.0, s), 1 / (4 * pi * 1000 * 2 * s * s), 1e-12) << "no viscosity";
+  EXPECT_EQ(own_wake_share(0.0, 1000, 0, 0.0, s), 0);
 }
 
 TEST(WakeWidth, HoldsTheVarianceOfTheWeights) {
