@@ -80,8 +80,8 @@ void require_unrelaxed_end(const Flow& flow) {
     refuse_factor("p_rghFinal");
 }
 
-/// What overlaps changes with the motion, and OpenFOAM does not keep the liquid then (9e-4 of it in 20 windows
-/// of a box whose halves slide).
+/// What overlaps changes with the motion, and OpenFOAM does not keep the liquid then (9e-4 of it in 20
+/// windows of a box whose halves slide).
 void refuse_overlap_that_changes(const Flow& flow) {
   if (extras(flow).motion == MeshMotion::never) return;
   for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh())

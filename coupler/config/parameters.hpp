@@ -22,12 +22,12 @@ namespace demvof {
 
 /// Where foam_side makes the fine mesh finer than the case's own, and when coarser again.
 struct RefinementParameters {
-  int levels = 2;              // how often a cell of the case's mesh may be halved
-  int buffer = 2;              // rings of cells around the interface that are fine too
-  bool particles = false;      // fine wherever there are particles
-  double porosity_jump = 0;    // fine where eps of two neighbours differs by more, -; 0: not asked
-  int max_cells = 10000000;    // no finer beyond this
-  double max_imbalance = 1.1;  // cells are moved between ranks beyond this: most on a rank over the mean
+  int levels = 2;               // how often a cell of the case's mesh may be halved
+  int buffer = 2;               // rings of cells around the interface that are fine too
+  bool particles = false;       // fine wherever there are particles
+  double porosity_jump = 0;     // fine where eps of two neighbours differs by more, -; 0: not asked
+  int max_cells = 10000000;     // no finer beyond this
+  double max_imbalance = 1.03;  // cells are moved between ranks beyond this: most on a rank over the mean
 };
 
 struct FluidParameters {
