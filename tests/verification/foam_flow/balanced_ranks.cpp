@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells that move between ranks take everything along: every registered field with its old values, the values
-// across the new cuts, the flux, and the knowledge of which cells were one. On several ranks.
+// Cells that move between ranks take everything along: every registered field on cells with its old values,
+// the values across the new cuts, the velocity on faces, and the knowledge of which cells were one.
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,7 @@ Place place(const vector& x) {
   return {std::lround(1e9 * x.x()), std::lround(1e9 * x.y()), std::lround(1e9 * x.z())};
 }
 
-/// Values at places, of all ranks, on all ranks. Where two ranks have the same place the values have to be
-/// the same.
+/// Values at places, of all ranks, on all ranks. Where two ranks have the same place, those of the last one.
 template <class Type>
 Values<Type> everywhere(const Foam::vectorField& places, const Foam::Field<Type>& values) {
   Foam::List<Foam::vectorField> all_places(Foam::Pstream::nProcs());
