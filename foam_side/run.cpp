@@ -248,6 +248,26 @@ double longest_step(const Flow& flow, double window) {
   return std::min(window, limits.adjust ? limits.step : flow.time.deltaTValue());
 }
 
+/// Of an unknown interpolation scheme OpenFOAM says the reason to one stream, and exits through the other.
+std::string said_by(const Foam::error& caught) {
+  const bool elsewhere = caught.message().empty() && !Foam::FatalIOError.message().empty();
+  const Foam::error& error = elsewhere ? Foam::FatalIOError : caught;
+  const auto* input = dynamic_cast<const Foam::IOerror*>(&error);
+  if (!input) return error.message();
+  return fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), error.message());
+}
+
+/// Shows what only a step asks for: entries of fvSchemes, function objects, walls that go along with the mesh.
+/// step: s.
+void try_step(Flow& flow, double step) try {
+  begin_window(flow, flow.time.value() + step);
+  step_fluid(flow, nullptr);
+} catch (const RunError& error) {
+  throw InputError(std::string("the first step fails: ") + error.what());
+} catch (const Foam::error& error) {
+  throw InputError(said_by(error));
+}
+
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const CaseParameters parameters = read_case(options.case_file, options.overrides);
   const bool paired = parameters.particles && parameters.scene.particles != Switch::off;
@@ -328,10 +348,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
   flow->scene.advice = scene.advice;
   if (options.check) {
-    if (paired && scene.mesh_moves) {  // a trial step shows walls that do not go along
-      ++flow->time;
-      move_under_particles(*flow);
-    }
+    try_step(*flow, step);
     const ResolvedNumbers numbers =
         resolved_numbers(parameters, *flow, facts.surface_tension, grid, particles);
     if (world.rank() == 0) {
@@ -357,11 +374,8 @@ int run_fluid(const ProgramOptions& options, const OwnWorld& world) {
   try {
     return run_case(options, world);
   } catch (const Foam::error& error) {
-    std::string said = error.message();
-    if (const auto* input = dynamic_cast<const Foam::IOerror*>(&error))
-      said = fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), said);
-    if (run_stage().time() > 0) throw RunError(said);
-    throw InputError(said);
+    if (run_stage().time() > 0) throw RunError(said_by(error));
+    throw InputError(said_by(error));
   }
 }
 

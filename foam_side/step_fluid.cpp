@@ -35,12 +35,13 @@ void catch_up_with_surface(Flow& flow, ParticlesToFine& to_fine) {
 }
 
 /// The mesh moves through the bulk grid, and through what the particles prescribe there.
-void move_with_particles(Flow& flow, Bridge& bridge) {
-  bridge.collect_impulse();
+void move_with_particles(Flow& flow, Bridge* bridge) {
+  if (bridge) bridge->collect_impulse();
   move_under_particles(flow);
-  bridge.remap();
+  if (bridge) bridge->remap();
   if (!flow.porosity) return;
-  ParticlesToFine& to_fine = bridge.particles_to_fine();
+  if (!bridge) return move_porosity(flow, flow.porosity->goal, flow.porosity->goal);
+  ParticlesToFine& to_fine = bridge->particles_to_fine();
   set_solid_velocity(flow, to_fine.solid_velocity());
   const double now = flow.time.value(), step = flow.time.deltaTValue();
   const scalarField begin = to_fine.void_fraction(part_of_window(flow.clock, now - step));
@@ -58,10 +59,10 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
     if (flow.porosity && flow.scene.two_fluids) catch_up_with_surface(flow, bridge->particles_to_fine());
   };
   const bool moves = extras(flow).motion != MeshMotion::never;
-  if (moves && bridge) move_with_particles(flow, *bridge);
+  if (moves && flow.source) move_with_particles(flow, bridge);
   if (!moves && refine_mesh(flow, before_change)) {
     if (bridge) bridge->remap();
-    if (flow.porosity) {
+    if (bridge && flow.porosity) {
       set_solid_velocity(flow, bridge->particles_to_fine().solid_velocity());
       renew_porosity(flow, bridge->particles_to_fine().void_fraction(0),
                      bridge->particles_to_fine().void_fraction(1));
@@ -71,13 +72,13 @@ bool step_fluid(Flow& flow, Bridge* bridge) {
   update_porosity(flow);
   if (bridge) bridge->particles_to_fine().spread_sources();
   while (outer_corrector(flow)) {
-    if (!bridge) move_mesh(flow);
+    if (!flow.source) move_mesh(flow);
     advect_interface(flow);
     if (bridge && flow.porosity && flow.scene.two_fluids && !moves)
       follow_surface(flow, void_fraction_after_next_step(flow, bridge->particles_to_fine()));
     if (flow.pimple.frozenFlow()) continue;
     predict_momentum(flow);
-    if (moves && bridge) let_pressure_accelerate_walls(flow);
+    if (moves && flow.source) let_pressure_accelerate_walls(flow);
     while (pressure_corrector(flow)) correct_pressure(flow);
   }
   end_step(flow);

@@ -7,7 +7,7 @@
 namespace demvof {
 
 /// One time step of the fluid, with the void fraction and the sources of its particles (bridge; nullptr:
-/// there are none); false when there is none left in the window or the run.
+/// none are there, or not yet); false when there is none left in the window or the run.
 bool step_fluid(Flow& flow, Bridge* bridge);
 
 }  // namespace demvof

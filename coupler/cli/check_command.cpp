@@ -75,7 +75,7 @@ int check_command(const CaseOptions& options) {
   std::vector<std::string> arguments = {"--check", "--out", folder.path().string()};
   for (const std::string& assignment : options.overrides)
     arguments.insert(arguments.end(), {"--set", assignment});
-  const LaunchCommand command = launch_command(parameters, arguments);
+  const LaunchCommand command = launch_command(parameters, arguments, 0);  // nothing to write
   const OfTheUser of_the_user(parameters, folder);
   const auto say = [&of_the_user](const std::string& what) { fmt::print("{}\n", of_the_user(what)); };
   try {

@@ -128,7 +128,7 @@ void read_some(int pipe, Lines& lines, int milliseconds) {
 }  // namespace
 
 LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments,
-                             const std::vector<std::string>& mpirun_words) {
+                             int time_to_write, const std::vector<std::string>& mpirun_words) {
   LaunchCommand command;
   command.environment = foam_environment();
   command.pair = parameters.particles.has_value();
@@ -151,7 +151,7 @@ LaunchCommand launch_command(const CaseParameters& parameters, const std::vector
   const int fluid_ranks = parameters.fluid.ranks,
             particle_ranks = command.pair ? parameters.particles->ranks : 0;
   add({"mpirun"});
-  add(mpirun_options(mpirun, parameters.coupling.time_out));
+  add(mpirun_options(mpirun, parameters.coupling.time_out, time_to_write));
   add(mpirun_words);
   add({"-np", std::to_string(fluid_ranks + particle_ranks)});
   if (command.pair) add({sibling("demvof_pair"), "-np", std::to_string(fluid_ranks)});

@@ -21,10 +21,11 @@ struct LaunchCommand {
 
 /// mpirun with foam_side and, with particles, dem_side through demvof_pair, all from the folder of this
 /// program; one foam_side rank alone is started without mpirun. arguments: given to both, after the case
-/// file; mpirun_words: the user's own options of mpirun. Throws std::runtime_error when a program is not
-/// there, InputError when there are options for an mpirun that is not needed.
+/// file; time_to_write: that ranks have when another has ended badly, s; mpirun_words: the user's own options
+/// of mpirun. Throws std::runtime_error when a program is not there, InputError when there are options for an
+/// mpirun that is not needed.
 LaunchCommand launch_command(const CaseParameters& parameters, const std::vector<std::string>& arguments,
-                             const std::vector<std::string>& mpirun_words = {});
+                             int time_to_write, const std::vector<std::string>& mpirun_words = {});
 
 /// As a user would type it, environment included.
 std::string shell_line(const LaunchCommand& command);

@@ -91,9 +91,10 @@ EXAMPLES
 
 const char* const check_manual = R"(DESCRIPTION
     Checks every key of the case file, then starts both programs on a copy of the case in a temporary
-    folder, lets them read their cases and agree, and stops before the first time step. Prints what the
-    run would have switched on, what it leaves out and why, and the numbers it found: time steps per
-    window, cells, particles. The case's folder is left as it is.
+    folder, lets them read their cases and agree, tries the fluid's first time step without particles, so
+    that a scheme, solver or source that the case lacks is found now, and stops. Prints what the run would
+    have switched on, what it leaves out and why, and the numbers it found: time steps per window, cells,
+    particles. The case's folder is left as it is.
 
     It executes what the case says (fluid.prepare, shell commands of the script ...): see --no-commands, and
     docs/security.md for cases of strangers.

@@ -55,7 +55,7 @@ std::string mpi_library() {
   return read_version(text).version;
 }
 
-std::vector<std::string> mpirun_options(const Mpirun& mpirun, double time_out) {
+std::vector<std::string> mpirun_options(const Mpirun& mpirun, double time_out, int time_to_write) {
   if (mpirun.open_mpi == 0) return {};
   // More ranks than cores are allowed (Open MPI then yields the core while it waits), and ranks are not
   // pinned: two runs on one machine would be pinned to the same cores.
@@ -64,9 +64,8 @@ std::vector<std::string> mpirun_options(const Mpirun& mpirun, double time_out) {
     const auto set = [&words](const char* name, const std::string& value) {
       words.insert(words.end(), {"--mca", name, value});
     };
-    // When a rank ends badly, mpirun waits twice this time, s, before it kills the others: enough for them to
-    // write what they have, and for a run to be over within 10 s of the loss of a side.
-    set("odls_base_sigkill_timeout", "3");
+    // When a rank ends badly, mpirun waits twice this time, s, before it kills the others.
+    set("odls_base_sigkill_timeout", std::to_string(time_to_write / 2));
     // A host that does not answer is lost after half the time that both sides wait for each other, and not
     // before a quarter: mpirun then ends the run, and its other half there what it has started.
     const auto seconds = [time_out](double share) {

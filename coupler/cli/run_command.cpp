@@ -19,6 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// When a rank has ended badly, s: enough for the others to write what they have, and for a run to be over within
+// 10 s of the loss of a side.
+constexpr int time_to_write = 6;
+
 fs::path results_file(const RunFolder& folder) {
   return folder.path() / "results.json";
 }
@@ -103,7 +107,7 @@ int run_command(CaseOptions options, const RunOptions& run) {
   if (options.no_commands) require_no_commands(parameters);
   const RunFolder folder(parameters, options.out);
   const LaunchCommand command =
-      launch_command(parameters, program_arguments(options, run, folder), run.mpirun_words);
+      launch_command(parameters, program_arguments(options, run, folder), time_to_write, run.mpirun_words);
   if (run.slurm) return write_job(options, run, parameters, folder);
   if (run.print_command) {
     fmt::print("{}\n", shell_line(command));

@@ -106,7 +106,7 @@ TEST(Launch, EndsAnMpirunThatDoesNotEndByItself) {
 
 TEST(Mpirun, LosesAHostInHalfTheTimeThatTheSidesWaitForEachOther) {
   for (const double time_out : {16.0, 600.0, 1e300}) {
-    const std::vector<std::string> words = mpirun_options({"Open MPI 4.1.4", 4}, time_out);
+    const std::vector<std::string> words = mpirun_options({"Open MPI 4.1.4", 4}, time_out, 6);
     const auto value = [&words](const std::string& name) {
       const auto at = std::find(words.begin(), words.end(), "oob_tcp_keepalive_" + name);
       return at < words.end() - 1 ? std::stod(at[1]) : 0;

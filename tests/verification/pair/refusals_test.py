@@ -124,25 +124,28 @@ def source(kind, entries, extra="selectionMode all;"):
 
 
 def with_gradient_of_each_cell():
-    """What it keeps is its own."""
+    """What it keeps is its own. It divides by the speed at its faces, so that the fluid flows at the start."""
     zone = HEADER.format("topoSetDict") + """actions (
     { name f; type faceSet; action new; source boxToFace; box (0.019 0 0) (0.021 1 1); }
-    { name f; type faceZoneSet; action new; source setToFaceZone; faceSet f; } );
+    { name f; type faceZoneSet; action new; source setToFaceZone; faceSet f; }
+    { name c; type cellZoneSet; action new; source boxToCell; box (0.02 0 0) (0.03 1 1); } );
 """
     options = source("directionalPressureGradientExplicitSource",
-                     "model constant; pressureDrop 1; flowDir (1 0 0); faceZone f; fields (U);")
-    return box("gradients", prepare=["blockMesh", "topoSet"],
+                     "model constant; pressureDrop 1; flowDir (1 0 0); faceZone f; fields (U);",
+                     "selectionMode cellZone; cellZone c;")
+    return box("gradients", velocity=(0.01, 0, 0), prepare=["blockMesh", "topoSet"],
                extra_files={"fluid/system/topoSetDict": zone, "fluid/constant/fvOptions": HEADER.format("fvOptions") + options}).write()
 
 
 RATES = "volumeMode specific; injectionRateSuSp"
 SOLUTION, CONTROL, TRANSPORT = "fluid/system/fvSolution", "fluid/system/controlDict", "fluid/constant/transportProperties"
+SCHEMES = "fluid/system/fvSchemes"
 # name: (file, what stands there, what in its place, what has to be said): numbers that check once called ready
 NUMBERS = {
     "outer_correctors": (SOLUTION, "nOuterCorrectors 1", "nOuterCorrectors -1", ["fvSolution:", "PIMPLE: nOuterCorrectors: -1", "of 1 or more"]),
     "correctors": (SOLUTION, "nCorrectors 3", "nCorrectors 0", ["PIMPLE: nCorrectors: 0 is not allowed"]),
     "given_flow": (SOLUTION, "nCorrectors 3; nNonOrthogonalCorrectors 0", "nCorrectors -1; nNonOrthogonalCorrectors -1",
-                   ["PIMPLE: nCorrectors: -1 is not allowed"]),
+                   ["PIMPLE: nCorrectors: -1", "a flow that is given"]),
     "relaxed_to_nothing": (SOLUTION, "PIMPLE", "relaxationFactors { equations { U 0; } }\nPIMPLE",
                            ["relaxationFactors: equations: U: 0 is not allowed", "above 0 and at most 1"]),
     "relaxed_beyond": (SOLUTION, "PIMPLE", "relaxationFactors { fields { \".*\" 1.5; } }\nPIMPLE", ["relaxationFactors: fields: .*: 1.5"]),
@@ -153,6 +156,8 @@ NUMBERS = {
     "no_pcorr": (SOLUTION, "\"pcorr.*\"", "pcorrFinal", ["solvers: pcorr is missing"]),
     "no_pcorrFinal": (SOLUTION, "\"pcorr.*\"", "pcorr", ["pcorrFinal"]),
     "no_UFinal": (SOLUTION, "\"U.*\"", "U", []),  # nor needed
+    "no_convection_scheme": (SCHEMES, "div(rhoPhi,U)", "div(phi,U)", ["fvSchemes.divSchemes, line", "div(rhoPhi,U)"]),
+    "unknown_scheme": (SCHEMES, "default Gauss linear; }", "default Gauss linaer; }", ["fvSchemes.gradSchemes", "linaer"]),
     "predicted_without_UFinal": (SOLUTION, "\"U.*\"", "U", ["solvers: UFinal is missing", "momentumPredictor is on"]),
     "courant": (CONTROL, "maxCo 0.5", "maxCo 0", ["controlDict:", "maxCo: 0 is not allowed", "above 0"]),
     "courant_of_surface": (CONTROL, "maxAlphaCo 0.5", "maxAlphaCo -1", ["maxAlphaCo: -1"]),
