@@ -257,8 +257,8 @@ std::string said_by(const Foam::error& caught) {
   return fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), error.message());
 }
 
-/// Shows what only a step asks for: entries of fvSchemes, function objects, walls that go along with the mesh.
-/// step: s.
+/// Shows what only a step asks for: entries of fvSchemes, function objects, walls that go along with the
+/// mesh. step: s.
 void try_step(Flow& flow, double step) try {
   begin_window(flow, flow.time.value() + step);
   step_fluid(flow, nullptr);

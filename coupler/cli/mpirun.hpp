@@ -19,8 +19,8 @@ Mpirun find_mpirun();
 /// The MPI library of this program, e.g. "Open MPI 4.1.4".
 std::string mpi_library();
 
-/// What demvof asks of this mpirun, in its own words. time_out: of both sides, s. time_to_write: that ranks have
-/// when another has ended badly, whole s.
+/// What demvof asks of this mpirun, in its own words. time_out: of both sides, s. time_to_write: that ranks
+/// have when another has ended badly, whole s.
 std::vector<std::string> mpirun_options(const Mpirun& mpirun, double time_out, int time_to_write);
 
 }  // namespace demvof

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// When a rank has ended badly, s: enough for the others to write what they have, and for a run to be over within
-// 10 s of the loss of a side.
+// When a rank has ended badly, s: enough for the others to write what they have, and for a run to be over
+// within 10 s of the loss of a side.
 constexpr int time_to_write = 6;
 
 fs::path results_file(const RunFolder& folder) {

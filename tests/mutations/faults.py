@@ -290,7 +290,7 @@ FAULTS = [
     ("foam_side/move_porosity.cpp", "flow.mesh.moving() ? flow.mesh.V0().field()", "!flow.mesh.moving() ? flow.mesh.V0().field()",
      MOVING),
     ("foam_side/pressure_system.cpp", "if (flow.porosity->swept)\n    return prescribed_growth(flow)", "if (false)\n    return prescribed_growth(flow)", MOVING),
-    ("foam_side/step_fluid.cpp", "  bridge.collect_impulse();\n  move_under_particles(flow);", "  move_under_particles(flow);", MOVING),
+    ("foam_side/step_fluid.cpp", "  if (bridge) bridge->collect_impulse();\n  move_under_particles(flow);", "  move_under_particles(flow);", MOVING),
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share + 0.5 * windows_ahead * change <= 0",
      MOVING),
