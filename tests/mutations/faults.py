@@ -314,6 +314,8 @@ FAULTS = [
     ("coupler/cli/launch.cpp", "programs.send_signal(SIGKILL);", "", LAUNCH),
     ("coupler/cli/child_process.cpp", "return name == one.substr(0, longest_name);", "return name != one.substr(0, longest_name);", LAUNCH),
     ("coupler/cli/mpirun.cpp", 'set("oob_tcp_keepalive_intvl", seconds(0.0625));', 'set("oob_tcp_keepalive_intvl", seconds(0.5));', LAUNCH),
+    ("foam_side/run.cpp", "    try_step(*flow, step);\n", "", REFUSALS),
+    ("foam_side/run.cpp", "elsewhere ? Foam::FatalIOError : caught", "caught", REFUSALS),
     ("coupler/link/watch.cpp", "files.push_back({other.end, POLLIN, 0});", "continue;", ENDINGS),
     ("coupler/cli/batch_script.cpp", 'option("ntasks", std::to_string(job.ranks));', 'option("ntasks", "1");', JOB),
     ("coupler/cli/batch_script.cpp", "if [ -e {} ]; then", "if [ -d {} ]; then", JOB),
