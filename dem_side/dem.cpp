@@ -273,13 +273,13 @@ Dem::Stream Dem::found_stream(int i) const {
   return {false, true, vec3(row + 8) - vec3(row + 5)};
 }
 
-std::vector<std::string> Dem::moved_surfaces() const {
-  std::vector<std::string> fixes;
+std::vector<MovedSurface> Dem::moved_surfaces() const {
+  std::vector<MovedSurface> fixes;
   for_each_fix(*liggghts_, [&](LAMMPS_NS::Fix& fix) {
     auto* surface = dynamic_cast<LAMMPS_NS::FixMeshSurface*>(&fix);  // with surface_vel, surface_ang_vel
     if (std::string_view(fix.style) == "move/mesh" || (surface && surface->surfaceVel()) ||
         fix_has_word(script_, fix.id, "shear"))
-      fixes.push_back(fmt::format("{} ({})", fix.id, fix.style));
+      fixes.push_back({fix.id, fix.style});
   });
   return fixes;
 }

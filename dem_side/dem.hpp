@@ -28,6 +28,11 @@ class LAMMPS;
 namespace demvof {
 
 /// The box that holds the particles, m, and the directions in which it wraps around.
+/// One of the script's that moves, or counts as moving.
+struct MovedSurface {
+  std::string fix, style;  // by which it does
+};
+
 struct ParticleDomain {
   Vec3 lower, upper;
   std::array<bool, 3> periodic{};
@@ -135,10 +140,10 @@ class Dem {
   bool has_clumps() const { return bool(*clumps_); }  // fix multisphere
   long whole_particles() const;                       // spheres by themselves, and clumps, of this rank
   bool inserts_particles() const;                     // the script has an insertion that is not over yet
-  std::vector<std::string> moved_surfaces() const;    // fixes by which one moves, or counts as moving
-  bool has_surfaces() const;                          // fix mesh/surface
-  std::vector<Vec3> surface_corners() const;          // of this rank's triangles, three for each, m
-  long inserted() const;   // particles that its insertions have put in so far, all ranks
+  std::vector<MovedSurface> moved_surfaces() const;
+  bool has_surfaces() const;                  // fix mesh/surface
+  std::vector<Vec3> surface_corners() const;  // of this rank's triangles, three for each, m
+  long inserted() const;                      // particles that its insertions have put in so far, all ranks
   long taken_out() const;  // particles that its outlets (fix massflow/mesh) have deleted so far
 
   /// One value row per particle that goes with it from rank to rank, and from run to run; rows of new

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_side/run.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -41,8 +45,25 @@ const ParticleParameters& particle_parameters(const CaseParameters& parameters) 
       ": particles: not given or switched off, so dem_side has nothing to do; start foam_side alone");
 }
 
+/// Those that walls of the fluid have to go along with: "name (style)".
+std::vector<std::string> surfaces_of_both(const std::vector<MovedSurface>& moved,
+                                          const std::vector<std::string>& unseen) {
+  std::vector<std::string> names, both;
+  for (const auto& [fix, style] : moved) {
+    names.push_back(fix);
+    if (std::find(unseen.begin(), unseen.end(), fix) == unseen.end())
+      both.push_back(fmt::format("{} ({})", fix, style));
+  }
+  for (const std::string& fix : unseen)
+    if (std::find(names.begin(), names.end(), fix) == names.end())
+      throw InputError(
+          fmt::format("particles.unseen_surfaces: {}: no fix of this name moves a surface of the script{}{}",
+                      fix, names.empty() ? "" : "; it has ", fmt::join(names, ", ")));
+  return both;
+}
+
 std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& averaging,
-                  const OwnWorld& world) {
+                  const std::vector<std::string>& moved_surfaces, const OwnWorld& world) {
   std::vector<std::string> closures;  // in the order of ParticleReport::closures
   for (const auto& [name, count] : forces.closures()) closures.push_back(name);
 
@@ -54,7 +75,7 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
                         {"max_diameter", census.max_diameter},
                         {"solid_volume", census.solid_volume},
                         {"inserts_particles", dem.inserts_particles()},
-                        {"moved_surfaces", dem.moved_surfaces()},
+                        {"moved_surfaces", moved_surfaces},
                         {"time_step", dem.time_step()},
                         {"periodic", dem.domain().periodic},
                         {"collision_time", contacts.collision},
@@ -120,6 +141,8 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   if (parameters.forces.own_wake != OwnWake::none)
     forces.take_out_own_wake(WakeWidth(grid, averaged), dem.census().max_diameter);
 
+  const std::vector<std::string> moved_surfaces =
+      surfaces_of_both(dem.moved_surfaces(), particle_parameters(parameters).unseen_surfaces);
   run_stage().set("handshake");
   ParticleEnd link(world, grid.cells(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
@@ -128,7 +151,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   averaging.in(0).deposit(forces.contributions());
   link.handshake(handshake_items(version(), configuration_hash(parameters), dem.script_gravity(), options.out,
                                  start ? start->checksum : "no", parameters.gravity),
-                 facts(dem, forces, averaging, world));
+                 facts(dem, forces, averaging, moved_surfaces, world));
   const WindowPlan& plan = link.receive_plan();
   if (!plan.interface) replacement.reset();
   if (options.check) {

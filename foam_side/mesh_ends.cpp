@@ -194,9 +194,9 @@ void require_same_motion(const Flow& flow, const std::vector<std::string>& moved
         "fluid moves: the particles would be pushed through a fluid that stands still. A wall that moves "
         "along "
         "itself, as a drum about its axis, needs its velocity in the fluid case's U (rotatingWallVelocity, "
-        "fixedValue); for any other motion the fluid's mesh has to move (constant/dynamicMeshDict), or take "
-        "the "
-        "fix out of the script",
+        "fixedValue); for any other motion the fluid's mesh has to move (constant/dynamicMeshDict). A "
+        "surface "
+        "that the fluid may flow through (a sieve, a thin paddle): name the fix in particles.unseen_surfaces",
         moved.front()));
   if (mesh_moves && flow_moves_bodies(flow.mesh))
     throw InputError(

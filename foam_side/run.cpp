@@ -2,6 +2,7 @@
 #include "foam_side/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -337,6 +338,11 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     require_mesh_fits(*grid, flow->mesh, start && scene.mesh_moves);
     if (const std::string said = walls_inside_bulk_cells(flow->mesh, *grid); !said.empty())
       scene.advice.push_back(said);
+    if (const auto& unseen = parameters.particles->unseen_surfaces; !unseen.empty())
+      scene.advice.push_back(
+          fmt::format("The fluid does not see what fix {} moves: it flows through there, and is moved by "
+                      "particles alone (docs/warnings.md, Unseen surfaces)",
+                      fmt::join(unseen, ", ")));
     require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));
   }
   if (flow->porosity && facts.inserts_particles && flow->p_rgh.needReference())

@@ -39,8 +39,9 @@ struct FluidParameters {
 };
 
 struct ParticleParameters {
-  std::string script;  // an ordinary LIGGGHTS input script, relative to the case file
-  int ranks = 1;       // MPI ranks of dem_side
+  std::string script;                        // an ordinary LIGGGHTS input script, relative to the case file
+  int ranks = 1;                             // MPI ranks of dem_side
+  std::vector<std::string> unseen_surfaces;  // fixes that move surfaces through which the fluid flows
 };
 
 struct BulkGridParameters {

@@ -113,8 +113,8 @@ def write_water(folder, lower, upper, cells, weight):
         (folder / name).write_text(text)
 
 
-def prepare(script, folder):
-    """A case file of the tutorial in water."""
+def prepare(script, folder, unseen=()):
+    """A case file of the tutorial in water. unseen: fixes that move surfaces, which the water's box does not have."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(script.parent, folder / "particles")
     (folder / "particles" / "post").mkdir(exist_ok=True)
@@ -127,7 +127,7 @@ def prepare(script, folder):
     window = DEM_STEPS * time_step(text)
     file = folder / "case.yaml"
     file.write_text(json.dumps({
-        "fluid": {"case": "fluid", "prepare": ["blockMesh"]}, "particles": {"script": f"particles/{script.name}"},
+        "fluid": {"case": "fluid", "prepare": ["blockMesh"]}, "particles": {"script": f"particles/{script.name}", "unseen_surfaces": list(unseen)},
         "bulk_grid": {"lower": lower, "upper": upper, "cells": cells},
         "coupling": {"window": window, "end_time": WINDOWS * window},
         "forces": [{"drag": "schiller_naumann"}, "pressure_gradient"]}))

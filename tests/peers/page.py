@@ -68,7 +68,8 @@ GRAINS = """
 
 Every public tutorial of LIGGGHTS (package `liggghts-doc`) in a box of water as large as its own box, {cells} bulk cells along
 the longest side; the script's runs but the last shortened to {settling} DEM steps, the last one replaced by {windows} windows of {steps}
-DEM steps. "Exchange" is the worst error of impulse given against received in a window.
+DEM steps. Surfaces that move, which that box of water does not have, are `particles.unseen_surfaces`: the fluid flows through them.
+"Exchange" is the worst error of impulse given against received in a window.
 
 """
 
@@ -140,7 +141,8 @@ def fluid_row(r):
 def grain_row(r):
     if r["outcome"] != "runs":
         return f"| {r['name']} | | {r['outcome']} | | {cell(r['why'])} | {r['commit']} |"
-    return f"| {r['name']} | {r['particles']} | runs | {r['books']:.1e} | | {r['commit']} |"
+    note = f"unseen: {', '.join(r['unseen'])} " if r.get("unseen") else ""
+    return f"| {r['name']} | {r['particles']} | runs | {r['books']:.1e} | {note}| {r['commit']} |"
 
 
 def beads_row(r):

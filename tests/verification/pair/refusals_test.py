@@ -82,6 +82,10 @@ def with_slope():
     return case.write()
 
 
+def pushed(name, unseen):
+    return box(name, script_tail=PISTON, extra_files={"particles/p.stl": STL}, sections={"particles": {"unseen_surfaces": unseen}}).write()
+
+
 def with_drum(omega):
     """The velocity of a wall is what its condition gives, at the start or later, not the 'value' beside it."""
     case = box(f"drum_{omega[0]}", script_tail=PISTON, extra_files={"particles/p.stl": STL})
@@ -205,6 +209,8 @@ TRIALS = {
                                     ["fix push (move/mesh)", "no wall of the fluid moves", "rotatingWallVelocity"]),
     "wall_that_shears_on_one_side": (lambda: box("shearing", contacts=True, script_tail=BELT).write(), 2,
                                      ["fix belt (wall/gran", "no wall of the fluid moves"]),
+    "surface_that_the_fluid_does_not_see": (lambda: pushed("sieve", ["push"]), 0, ["The fluid does not see what fix push moves"]),
+    "surface_that_does_not_move": (lambda: pushed("floor", ["floor"]), 2, ["unseen_surfaces: floor: no fix of this name", "it has push"]),
     "wall_that_moves_on_both": (lambda: with_drum("1"), 0, []),
     "wall_that_moves_later": (lambda: with_drum("table ((0 0) (1 1))"), 0, []),
     "mesh_that_moves": (lambda: box("mesh", extra_files={"fluid/constant/dynamicMeshDict": SHAKEN}).write(), 2,
