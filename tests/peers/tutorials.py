@@ -109,13 +109,13 @@ def entry(dictionary, key, otherwise=None):
     return found[1].strip() if found else otherwise
 
 
-def twenty_steps(case, step=None):
-    """Equal steps, of the tutorial's deltaT where no other is given, fields written once with all digits."""
+def twenty_steps(case, step=None, steps=STEPS):
+    """Equal steps, 20 where nothing else is said, of the tutorial's deltaT where no other is given, fields written once with all digits."""
     file = case / "system" / "controlDict"
     text = file.read_text()
     step, begin = step or float(entry(text, "deltaT")), 0.0
-    lines = {"startFrom": "startTime", "startTime": begin, "stopAt": "endTime", "endTime": begin + STEPS * step, "deltaT": step,
-             "adjustTimeStep": "no", "writeControl": "timeStep", "writeInterval": STEPS, "purgeWrite": 0,
+    lines = {"startFrom": "startTime", "startTime": begin, "stopAt": "endTime", "endTime": begin + steps * step, "deltaT": step,
+             "adjustTimeStep": "no", "writeControl": "timeStep", "writeInterval": steps, "purgeWrite": 0,
              "writeFormat": "ascii", "writePrecision": 16, "timePrecision": 12, "writeCompression": "off"}
     for key in lines:
         text = re.sub(rf"^\s*{key}\s[^;]*;", "", text, flags=re.M)
