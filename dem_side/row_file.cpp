@@ -2,6 +2,8 @@
 // What demvof keeps of each particle, for the run that goes on: by its number, in pieces that need no room.
 // In LIGGGHTS's own restart file it would go through one buffer for all particles.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <unordered_map>
@@ -22,6 +24,22 @@ int width_of(const Columns& columns) {
   int width = 1;  // its number
   for (const auto& column : columns) width += column.width;
   return width;
+}
+
+/// Throws InputError where the file is not that of so many particles with so many numbers each.
+void require_size(const std::filesystem::path& file, double particles, int width) {
+  std::error_code absent;
+  const auto size = std::filesystem::file_size(file, absent);
+  if (absent)
+    throw InputError(fmt::format(
+        "--continue: there is no {}: the state was written by a version of demvof that kept this elsewhere; "
+        "go on with that version, or start a new run",
+        file.string()));
+  if (static_cast<double>(size) != particles * width * sizeof(double))
+    throw InputError(fmt::format(
+        "--continue: {} has {} bytes, and {:.0f} particles with {} numbers each make {:.0f}: it was written "
+        "by another version of demvof, or with other forces; go on with these, or start a new run",
+        file.string(), size, particles, width, particles * width * sizeof(double)));
 }
 
 }  // namespace
@@ -67,10 +85,14 @@ void Dem::read_rows() {
   const LAMMPS_NS::Atom& atom = *liggghts_->atom;
   int rank;
   check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
-  std::ifstream from;
-  if (rank == 0) from.open(rows_file(restart_file_), std::ios::binary);
+  const std::filesystem::path file = rows_file(restart_file_);
   const std::vector<Columns> kept = columns();
   const int width = width_of(kept);
+  std::ifstream from;
+  if (rank == 0) {
+    require_size(file, static_cast<double>(atom.natoms), width);
+    from.open(file, std::ios::binary);
+  }
   std::unordered_map<int, int> place;
   for (int i = 0; i < atom.nlocal; ++i) place.emplace(atom.tag[i], i);
   std::vector<double> piece(static_cast<std::size_t>(in_a_piece * width));
@@ -93,7 +115,7 @@ void Dem::read_rows() {
     }
   }
   if (!place.empty())
-    throw InputError("--continue: " + rows_file(restart_file_).string() + " does not know all particles of " +
+    throw InputError("--continue: " + file.string() + " does not know all particles of " +
                      restart_file_.string());
 }
 
