@@ -73,7 +73,7 @@ tmp<volScalarField> fit_flux(Flow& flow, surfaceScalarField& flux, const surface
   while (flow.pimple.correctNonOrthogonal()) {
     Foam::fvScalarMatrix equation(fvm::laplacian(mobility, potential) == fvc::div(flux));
     if (wanted_rate) equation.source() += flow.mesh.V().field() * *wanted_rate;
-    equation.setReference(0, 0);
+    equation.setReference(Foam::Pstream::master() ? 0 : -1, 0);  // one cell in all, not one of each rank
     equation.solve(solver);
     if (flow.pimple.finalNonOrthogonalIter()) flux -= equation.flux();
   }
