@@ -8,6 +8,7 @@
 #include "foam_side/flow.hpp"
 #include "foam_side/foam_compat.hpp"
 #include "mapDistributePolyMesh.H"
+#include "wallDist.H"
 
 namespace demvof {
 namespace {
@@ -98,7 +99,27 @@ void fill_cuts(const Foam::fvMesh& mesh) {
   }
 }
 
+/// The distance from walls, to which turbulence models keep a reference: while the mesh is sent nobody may
+/// throw it away, or form it anew on a half of the mesh. Its values go with the cells.
+class KeptWallDistance {
+ public:
+  explicit KeptWallDistance(const Foam::fvMesh& mesh)
+      : distance_(mesh.thisDb().getObjectPtr<Foam::wallDist>(Foam::wallDist::typeName)) {
+    if (!distance_) return;
+    distance_->release();
+    distance_->checkOut();
+  }
+  /// For the mesh as it is now.
+  void give_back() {
+    if (distance_) Foam::regIOobject::store(distance_).movePoints();
+  }
+
+ private:
+  Foam::wallDist* distance_;
+};
+
 void move_cells(Foam::dynamicRefineFvMesh& mesh, const Foam::labelList& ranks) {
+  KeptWallDistance distance(mesh);
   const auto map = distribute_mesh(mesh, ranks);
   // As OpenFOAM does: the engine has no other way in.
   const_cast<Foam::hexRef8&>(mesh.meshCutter()).distribute(map());
@@ -107,6 +128,7 @@ void move_cells(Foam::dynamicRefineFvMesh& mesh, const Foam::labelList& ranks) {
     map().distributeCellData(kept);
     mesh.protectedCell() = Foam::bitSet(kept);
   }
+  distance.give_back();
   fill_cuts<scalar>(mesh);
   fill_cuts<vector>(mesh);
   fill_cuts<Foam::symmTensor>(mesh);
@@ -121,8 +143,14 @@ double imbalance(const Foam::fvMesh& mesh) {
   return most * Foam::Pstream::nProcs() / all;
 }
 
+bool cells_stay(const Foam::fvMesh& mesh) {
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+    if (patch.coupled() && !Foam::isA<Foam::processorPolyPatch>(patch)) return true;
+  return false;
+}
+
 bool balance_mesh(Flow& flow) {
-  if (!Foam::Pstream::parRun() || !flow.refinement) return false;
+  if (!Foam::Pstream::parRun() || !flow.refinement || cells_stay(flow.mesh)) return false;
   Refinement& refinement = *flow.refinement;
   const double now = imbalance(flow.mesh);
   if (now <= std::max(refinement.parameters.max_imbalance, worth_a_move * refinement.left_imbalance))

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "OFstream.H"
+#include "cellSetOption.H"
 #include "coupler/base/errors.hpp"
+#include "dynamicRefineFvMesh.H"
 #include "foam_side/extras.hpp"
 #include "meanVelocityForce.H"
 
@@ -124,6 +126,24 @@ void require_sources_to_act(const Flow& flow) {
                said_of(flow, *source),
                fmt::join(std::vector<std::string>(fields.begin(), fields.end()), ", "), flow.U.name(),
                flow.scene.turbulence ? " and what the turbulence model solves for" : " alone in this case")
+               .c_str()
+        << Foam::exit(Foam::FatalError);  // throws
+  }
+}
+
+void require_sources_to_follow(const Flow& flow) {
+  if (!Foam::isA<Foam::dynamicRefineFvMesh>(flow.mesh)) return;
+  using Cells = Foam::fv::cellSetOption;
+  for (const option* source : active_sources(flow)) {
+    const auto* cells = dynamic_cast<const Cells*>(source);
+    if (!cells) continue;
+    if (cells->selectionMode() == Cells::smAll || cells->selectionMode() == Cells::smCellZone) continue;
+    FatalErrorInFunction
+        << fmt::format(
+               "{}: selectionMode: on a mesh that refines itself all or cellZone: a set and points keep the "
+               "cells that they had, or their volume (a zone from a set: topoSet's cellZoneSet, "
+               "setToCellZone)",
+               said_of(flow, *source))
                .c_str()
         << Foam::exit(Foam::FatalError);  // throws
   }

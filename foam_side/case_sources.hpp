@@ -10,6 +10,10 @@ namespace demvof {
 /// Throws Foam::error for a source of fvOptions that no equation here has a place for. Part of open_flow.
 void require_sources_to_act(const Flow& flow);
 
+/// Throws Foam::error for a source whose cells would not be the same when the mesh has refined itself. Part
+/// of open_flow.
+void require_sources_to_follow(const Flow& flow);
+
 /// Sources that go on from what they did: writes where they stand into the present time folder, where
 /// OpenFOAM's own look for it when a run goes on; by themselves they write in steps alone that are known to
 /// be an output's. Throws RunError when it cannot be written.

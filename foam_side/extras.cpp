@@ -6,6 +6,7 @@
 
 #include "cyclicACMIPolyPatch.H"
 #include "dynamicRefineFvMesh.H"
+#include "processorCyclicPolyPatch.H"
 
 namespace demvof {
 namespace {
@@ -91,6 +92,23 @@ void refuse_overlap_that_changes(const Flow& flow) {
              "wholly, or a mesh at rest");
 }
 
+/// OpenFOAM's refinement halves one side of such a cut and not the other ("face area does not match
+/// neighbour").
+void refuse_cut_cyclic_refinement(const Flow& flow) {
+  if (!Foam::isA<Foam::dynamicRefineFvMesh>(flow.mesh)) return;
+  for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh()) {
+    if (!Foam::isA<Foam::processorCyclicPolyPatch>(patch)) continue;
+    const auto& cut = Foam::refCast<const Foam::processorCyclicPolyPatch>(patch);
+    const auto& here = Foam::refCast<const Foam::cyclicPolyPatch>(cut.referPatch());
+    const auto& side = here.owner() ? here : here.neighbPatch();  // all ranks say the same
+    refuse("the sides of the cyclic patches " + side.name() + " and " + side.neighbPatchName() +
+           " lie on different ranks, which a mesh that refines itself does not bear: cut along other "
+           "directions, or have them on one in system/decomposeParDict: constraints { ends { type "
+           "preservePatches; patches (" +
+           side.name() + " " + side.neighbPatchName() + "); enabled true; } }");
+  }
+}
+
 void require_what_particles_bear(const Flow& flow) {
   if (!flow.scene.particles) return;
   if (flow.time.startTime().value() != 0)
@@ -117,6 +135,7 @@ void refuse_what_is_not_done(const Flow& flow) {
   require_known_advection(flow, alpha);
   require_known_time_schemes(flow, alpha);
   require_unrelaxed_end(flow);
+  refuse_cut_cyclic_refinement(flow);
   require_what_particles_bear(flow);
 }
 

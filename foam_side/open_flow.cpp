@@ -76,6 +76,7 @@ std::unique_ptr<Flow> open_flow(const Foam::argList& args, const Scene& scene,
   make_extras(*flow);
   refuse_what_is_not_done(*flow);
   require_sources_to_act(*flow);
+  require_sources_to_follow(*flow);
   if (refinement) {
     flow->refinement = std::make_unique<Refinement>(flow->mesh, *refinement);
     if (!continued) refine_start(*flow);

@@ -9,6 +9,7 @@
 
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/open_momentum.hpp"
+#include "processorCyclicPolyPatch.H"
 
 namespace demvof {
 
@@ -25,22 +26,33 @@ double fluid_share(const Flow& flow, label cell) {
   return flow.ghost ? flow.ghost->eps[cell] : void_fraction(flow, cell);
 }
 
-/// Largest x of the alpha = 0.5 surface on this rank, m: where the line between two cell centres
-/// crosses it, or a boundary face that liquid touches.
+/// Largest x of the alpha = 0.5 surface on this rank, m: where the line between two cell centres, on one side
+/// or both of a cut between ranks, crosses it, or a boundary face that liquid touches.
 double liquid_front(const Flow& flow) {
   const auto& mesh = flow.mesh;
   double front = mesh.bounds().min().x();
+  const auto look_between = [&front](double alpha, double x, double next_alpha, double next_x) {
+    const double a = alpha - 0.5, b = next_alpha - 0.5;
+    if ((a < 0) != (b < 0)) front = std::max(front, x + (next_x - x) * a / (a - b));
+  };
   for (label face = 0; face < mesh.nInternalFaces(); ++face) {
     const label own = mesh.owner()[face], next = mesh.neighbour()[face];
-    const double a = flow.alpha[own] - 0.5, b = flow.alpha[next] - 0.5;
-    if ((a < 0) == (b < 0)) continue;
-    const double x = mesh.C()[own].x(), there = mesh.C()[next].x();
-    front = std::max(front, x + (there - x) * a / (a - b));
+    look_between(flow.alpha[own], mesh.C()[own].x(), flow.alpha[next], mesh.C()[next].x());
   }
-  for (const auto& patch : mesh.boundary()) {
-    if (patch.coupled()) continue;
-    for (label i = 0; i < patch.size(); ++i)
-      if (flow.alpha[patch.faceCells()[i]] >= 0.5) front = std::max(front, patch.Cf()[i].x());
+  for (const auto& at_patch : flow.alpha.boundaryField()) {
+    const Foam::fvPatch& patch = at_patch.patch();
+    const Foam::labelUList& cells = patch.faceCells();
+    if (Foam::isA<Foam::processorPolyPatch>(patch.patch()) &&
+        !Foam::isA<Foam::processorCyclicPolyPatch>(patch.patch())) {
+      const scalarField there(at_patch.patchNeighbourField());
+      const Foam::vectorField way(patch.delta());
+      forAll(cells, i) {
+        const double x = mesh.C()[cells[i]].x();
+        look_between(flow.alpha[cells[i]], x, there[i], x + way[i].x());
+      }
+    } else if (!patch.coupled()) {
+      forAll(cells, i) if (flow.alpha[cells[i]] >= 0.5) front = std::max(front, patch.Cf()[i].x());
+    }
   }
   return front;
 }

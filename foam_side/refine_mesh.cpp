@@ -71,6 +71,7 @@ void agree_on_both_sides(surfaceVectorField& face_velocity) {
 
 /// What hangs on the mesh and is no mapped field; values across cuts between ranks, of the step before too: a
 /// flux that takes them differs on both sides of the cut otherwise.
+/// The mesh counts as changed from here on, also when only an earlier look changed it.
 void renew_geometry(Flow& flow) {
   for (volScalarField* field :
        {&flow.alpha, &flow.alpha.oldTime(), &flow.mixture.alpha2(), &flow.rho, &flow.rho.oldTime()})
@@ -79,6 +80,9 @@ void renew_geometry(Flow& flow) {
   renew_gravity_potential(flow);
   Foam::setRefCell(flow.p, flow.p_rgh, flow.pimple.dict(), flow.p_reference_cell, flow.p_reference);
   flow.reconstruct = std::make_unique<Reconstruction>(flow.mesh);
+  // The model itself does this in its next step, and wall functions come before.
+  flow.mesh.topoChanging(true);
+  const_cast<Foam::nearWallDist&>(flow.turbulence->y()).correct();
 }
 
 void record_balance(Flow& flow) {
@@ -106,7 +110,6 @@ bool refine_mesh(Flow& flow, const std::function<void()>& before) {
   if (flow.refinement) flow.refinement->first = false;
   if (!changed) return false;
   balance_mesh(flow);
-  flow.mesh.topoChanging(true);  // also when only an earlier look changed it
   renew_geometry(flow);
   if (flow.refinement) record_balance(flow);
   return true;
@@ -130,6 +133,7 @@ void refine_start(Flow& flow) {
   if (!changed) return;
   balance_mesh(flow);
   renew_geometry(flow);
+  flow.mesh.topoChanging(false);
   record_balance(flow);
   balance_pressure(flow);
   flow.phi = fvc::flux(flow.U);

@@ -9,6 +9,7 @@
 #include "coupler/base/errors.hpp"
 #include "dynamicRefineFvMesh.H"
 #include "foam_side/flow.hpp"
+#include "syncTools.H"
 
 namespace demvof {
 namespace {
@@ -56,6 +57,17 @@ void add_ring(volScalarField& mark) {
   }
 }
 
+/// Marks all cells that share a point with a marked one, across cuts between ranks and cyclic patches too.
+void add_ring_by_points(volScalarField& mark) {
+  const Foam::fvMesh& mesh = mark.mesh();
+  const Foam::labelListList& cells_of = mesh.pointCells();
+  scalarField marked(mesh.nPoints(), Foam::Zero);
+  forAll(marked, point) for (const label cell : cells_of[point]) marked[point] =
+      std::max(marked[point], mark[cell]);
+  Foam::syncTools::syncPointList(mesh, marked, Foam::maxEqOp<scalar>(), scalar(0));
+  forAll(marked, point) if (marked[point] > 0) for (const label cell : cells_of[point]) mark[cell] = 1;
+}
+
 }  // namespace
 
 void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters) {
@@ -66,14 +78,15 @@ void write_mesh_dictionary(const std::filesystem::path& fluid_case, const Refine
         fmt::format("fluid.refinement: the fluid case says in constant/dynamicMeshDict how its mesh changes; "
                     "remove that file or the section fluid.refinement"));
   std::ofstream out(file);
-  // OpenFOAM takes the mean of the marks around a point and refines the cells of points above the lower
-  // level: the marked cells and one ring. A ring of hysteresis (nBufferLayers) keeps what was fine.
+  // OpenFOAM takes the mean of the marks around a point, of the rank's own cells, and refines the cells of
+  // points above the lower level: with 1 those that are marked, since the last ring is all around points
+  // (add_ring_by_points), on any number of ranks. A ring of hysteresis (nBufferLayers) keeps what was fine.
   // Fluxes on new faces are rebuilt by this program: "none".
   out << written_here
       << "\nFoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }\n"
       << fmt::format(
              "dynamicFvMesh dynamicRefineFvMesh;\nrefineInterval 1;\nfield refinementMark;\n"
-             "lowerRefineLevel 0.01;\nupperRefineLevel 10;\nunrefineLevel 0.5;\nnBufferLayers 1;\n"
+             "lowerRefineLevel 0.99;\nupperRefineLevel 10;\nunrefineLevel 0.5;\nnBufferLayers 1;\n"
              "maxRefinement {};\nmaxCells {};\ndumpLevel true;\n",
              parameters.levels, parameters.max_cells)
       << "correctFluxes ( (phi none) (phi_0 none) (rhoPhi none) (nHatf none) (ghf none) (Uf none)\n"
@@ -114,7 +127,8 @@ void Refinement::set_marks(const Flow& flow) {
     if (parameters.particles) forAll(mark, cell) if (eps[cell] < 1 - no_particle) mark[cell] = 1;
     if (parameters.porosity_jump > 0) mark_jumps(mark, eps, parameters.porosity_jump);
   }
-  for (int ring = 1; ring < parameters.buffer; ++ring) add_ring(mark);  // OpenFOAM adds the last one
+  for (int ring = 1; ring < parameters.buffer; ++ring) add_ring(mark);
+  add_ring_by_points(mark);
   mark.correctBoundaryConditions();
 }
 

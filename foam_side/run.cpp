@@ -20,6 +20,7 @@
 #include "coupler/output/run_lock.hpp"
 #include "coupler/scene/plan_windows.hpp"
 #include "dynamicRefineFvMesh.H"
+#include "foam_side/balance_mesh.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/case_numbers.hpp"
 #include "foam_side/case_sources.hpp"
@@ -329,6 +330,10 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
                                   slow_pressure_solver(*flow), one_correction_for_thick_liquid(*flow, step),
                                   paired ? forget : "", paired ? unknown_sources(*flow) : ""})
     if (!said.empty()) scene.advice.push_back(said);
+  if (refinement && world.size() > 1 && cells_stay(flow->mesh))
+    scene.advice.emplace_back(
+        "fluid.refinement: the mesh has cyclic patches, and cells stay on their ranks, however many of them "
+        "there are (max_imbalance)");
   if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
     throw InputError(
         "constant/dynamicMeshDict: dynamicRefineFvMesh: with particles the case file says where the mesh is "

@@ -127,6 +127,23 @@ def source(kind, entries, extra="selectionMode all;"):
     return f"s {{ type {kind}; {extra} {entries} }}\n"
 
 
+def that_refines(name, **more):
+    return box(name, sections={"fluid": {"refinement": {"levels": 1}, **more.pop("fluid", {})}}, **more)
+
+
+def with_source_at_points():
+    options = HEADER.format("fvOptions") + source("vectorSemiImplicitSource", RATES + " { U ((1 0 0) 0); }",
+                                                  "selectionMode points; points ((0.02 0.02 0.02));")
+    return that_refines("points", extra_files={"fluid/constant/fvOptions": options}).write()
+
+
+def with_cyclic_ends(axis):
+    """Two ranks that refine, cut along x."""
+    case = that_refines(f"cyclic_{axis}", fluid={"ranks": 2})
+    case.sides.update({axis + "-": Cyclic(), axis + "+": Cyclic()})
+    return case.write()
+
+
 def with_gradient_of_each_cell():
     """What it keeps is its own. It divides by the speed at its faces, so that the fluid flows at the start."""
     zone = HEADER.format("topoSetDict") + """actions (
@@ -239,6 +256,9 @@ TRIALS = {
                                ["would do nothing to U", "of its kind"]),
     "source_that_is_not_active": (lambda: with_sources("inactive", source("vectorSemiImplicitSource", "active no; " + RATES + " { V ((1 0 0) 0); }")),
                                   0, []),
+    "source_whose_cells_change": (with_source_at_points, 2, ["s (vectorSemiImplicitSource)", "all or cellZone"]),
+    "refinement_of_cyclic_ends_on_two_ranks": (lambda: with_cyclic_ends("x"), 2, ["xlow and xhigh lie on different ranks", "preservePatches"]),
+    "refinement_beside_cyclic_ends": (lambda: with_cyclic_ends("y"), 0, ["cells stay on their ranks"]),
     "thick_liquid_with_one_correction": (lambda: with_corrections(1), 0, ["nu dt/dx2 may be 10 and nCorrectors is 1"]),
     "thick_liquid_with_two_corrections": (lambda: with_corrections(2), 0, ["not: nCorrectors is 1"]),
     "thin_liquid_with_one_correction": (lambda: with_corrections(1, nu=2e-2), 0, ["not: nCorrectors is 1"]),
