@@ -92,8 +92,7 @@ void refuse_overlap_that_changes(const Flow& flow) {
              "wholly, or a mesh at rest");
 }
 
-/// OpenFOAM's refinement halves one side of such a cut and not the other ("face area does not match
-/// neighbour").
+/// Refined, such a cut is wrong in OpenFOAM: a uniform stream is 2e-4 of itself off after ten steps.
 void refuse_cut_cyclic_refinement(const Flow& flow) {
   if (!Foam::isA<Foam::dynamicRefineFvMesh>(flow.mesh)) return;
   for (const Foam::polyPatch& patch : flow.mesh.boundaryMesh()) {

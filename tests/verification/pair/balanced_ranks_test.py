@@ -55,8 +55,7 @@ class BalancedRanks(unittest.TestCase):
         self.assertLess(worst[name], bound)
 
     def test_cloud_across_the_cut(self):
-        """The mesh itself depends a little on where it is cut, and so does what is compared with ranks that keep their cells. The
-        run that stops and goes on has its cells on other ranks than those that decomposePar gave them to."""
+        """The run that stops and goes on has its cells on other ranks than those that decomposePar gave them to."""
         kept = self.run_case("kept", "--set", "fluid.refinement.max_imbalance=100")
         self.assertEqual(kept.results["cells"]["rank_changes"], 0)
         self.assertGreater(kept.results["cells"]["imbalance"], 1.4)
@@ -64,7 +63,10 @@ class BalancedRanks(unittest.TestCase):
         self.assertGreater(moved.results["cells"]["rank_changes"], 3)
         self.assertLess(moved.results["cells"]["imbalance"], 1.15)
         self.check_books(moved)
-        self.compare(kept, moved, 1e-3, "particle_kinetic_energy", "max_speed")
+        self.compare(kept, moved, 3e-8, "particle_kinetic_energy")
+        self.compare(kept, moved, 3e-5, "kinetic_energy")
+        self.compare(kept, moved, 1.2e-3, "max_speed")  # of the air
+        self.assertEqual(kept.results["cells"]["mesh_changes"], moved.results["cells"]["mesh_changes"])
         self.run_case("parts", "--set", f"coupling.end_time={END / 2}")
         parts = self.run_case("parts", "--continue")
         self.assertEqual(parts.results["continued_from"], END / 2)
