@@ -171,6 +171,12 @@ void require_solvers(const Flow& flow, double longest_step) {
   if (flow.pimple.nCorrPIMPLE() > 1) require_solver(flow, "U", like, why.c_str());
 }
 
+std::string pimple_by_default(const Foam::fvMesh& mesh) {
+  if (mesh.solutionDict().found("PIMPLE")) return {};
+  return "system/fvSolution has no PIMPLE: OpenFOAM's defaults hold, one pressure correction a step "
+         "(nCorrectors 1) among them; three are usual with particles";
+}
+
 std::string one_correction_for_thick_liquid(const Flow& flow, double longest_step) {
   const double number = viscous_rate(flow) * longest_step;
   if (!flow.source || number <= most_of_corrections || flow.pimple.nCorrPISO() > 1) return {};

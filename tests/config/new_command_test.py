@@ -66,7 +66,8 @@ class NewCase(unittest.TestCase):
         mesh = self.folder / "dam" / "system" / "blockMeshDict"
         mesh.write_text(mesh.read_text().replace("(6 0 ", "(6.12345678 0 ").replace("(6 6 ", "(6.12345678 6 "))
         control = self.folder / "dam" / "system" / "controlDict"
-        control.write_text(control.read_text().replace("writePrecision  10;", "writePrecision  6;"))
+        control.write_text(control.read_text().replace("writePrecision  10;", "writePrecision  6;")
+                           .replace("stopAt          endTime;\n", "stopAt endTime; "))
         (self.folder / "dam" / "Allrun").write_text(ALLRUN)
         (self.folder / "beads").mkdir()
         (self.folder / "beads" / "in.beads").write_text(SCRIPT)

@@ -75,7 +75,7 @@ def copy_fluid(case, target):
 
 
 def dictionary_number(text, key):
-    found = re.search(rf"^\s*{key}\s+([-+.\deE]+)\s*;", text, re.MULTILINE)
+    found = re.search(rf"(?:^|[;{{}}])\s*{key}\s+([-+.\deE]+)\s*;", text, re.MULTILINE)
     return float(found[1]) if found else 0.0
 
 

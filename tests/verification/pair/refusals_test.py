@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from box_case import BoxCase, Cyclic, Particle, Wall
+from box_case import BoxCase, Cyclic, Open, Particle, Wall
 from clumps import with_clumps
 
 DEMVOF, FOLDER, NAMES = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
@@ -60,6 +60,12 @@ def with_processors():
 
 def with_style(name, old, new):
     return replaced(box(name).write(), "particles/in.particles", old, new)
+
+
+def without_pimple():
+    case = box("no_pimple")
+    case.sides["z+"] = Open()
+    return replaced(case.write(), SOLUTION, "PIMPLE", "PIMPL")
 
 
 def with_time_scheme():
@@ -263,6 +269,7 @@ TRIALS = {
     "thick_liquid_with_two_corrections": (lambda: with_corrections(2), 0, ["not: nCorrectors is 1"]),
     "thin_liquid_with_one_correction": (lambda: with_corrections(1, nu=2e-2), 0, ["not: nCorrectors is 1"]),
     "source_that_cannot_be_continued": (with_gradient_of_each_cell, 0, ["beware: constant/fvOptions:", "the run cannot be continued"]),
+    "no_pimple": (without_pimple, 0, ["fvSolution has no PIMPLE", "nCorrectors 1"]),
     **{name: (lambda name=name: with_number(name), 2 if words else 0, [*words, "not: demvof-check"]) for name, (*_, words) in NUMBERS.items()},
 }
 
