@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
+#include "dynamicRefineFvMesh.H"
 #include "findRefCell.H"
 #include "foam_side/balance_mesh.hpp"
 #include "foam_side/flow.hpp"
@@ -28,18 +30,51 @@ void restore_liquid(Flow& flow, const volScalarField& liquid) {
     *rho == flow.alpha* flow.mixture.rho1() + flow.mixture.alpha2() * flow.mixture.rho2();
 }
 
+const Foam::hexRef8& cutter_of(const Foam::fvMesh& mesh) {
+  return dynamic_cast<const Foam::dynamicRefineFvMesh&>(mesh).meshCutter();
+}
+
+/// How often each cell was halved: a registered field, which mapping takes along.
+struct LevelsBefore {
+  explicit LevelsBefore(const Foam::fvMesh& mesh)
+      : of_cell(Foam::IOobject("levelBeforeChange", mesh.time().timeName(), mesh), mesh,
+                dimensionedScalar(Foam::dimless, Foam::Zero)) {
+    forAll(of_cell, cell) of_cell[cell] = cutter_of(mesh).cellLevel()[cell];
+  }
+  volScalarField of_cell;
+};
+
+/// On faces inside of cells that were halved OpenFOAM puts the mean of the faces around, walls among them: a
+/// stream along a wall stood almost still there.
+void renew_new_face_velocities(Flow& flow, const LevelsBefore& before) {
+  const Foam::fvMesh& mesh = flow.mesh;
+  const Foam::hexRef8& cutter = cutter_of(mesh);
+  const auto halved = [&](label cell) { return cutter.cellLevel()[cell] > before.of_cell[cell] + 0.5; };
+  const auto parent = [&](label cell) { return cutter.history().parentIndex(cell); };
+  forAll(mesh.neighbour(), face) {
+    const label own = mesh.owner()[face], next = mesh.neighbour()[face];
+    if (halved(own) && halved(next) && parent(own) == parent(next))
+      (*flow.face_velocity)[face] = 0.5 * (flow.U[own] + flow.U[next]);
+  }
+}
+
 /// One look at the mesh: cells are halved or put together once. True if it changed.
 bool change_once(Flow& flow) {
   std::unique_ptr<volScalarField> liquid;
+  std::optional<LevelsBefore> before;
   if (flow.porosity)
     liquid = std::make_unique<volScalarField>("liquidPerVolume", flow.porosity->eps * flow.alpha);
-  if (flow.refinement) flow.refinement->set_marks(flow);
+  if (flow.refinement) {
+    flow.refinement->set_marks(flow);
+    before.emplace(flow.mesh);
+  }
   flow.mesh.update();
   if (flow.mesh.moving())
     FatalErrorInFunction << "the mesh moves: this solver does refinement, not motion"
                          << Foam::exit(Foam::FatalError);
   if (!flow.mesh.changing()) return false;
   if (liquid) restore_liquid(flow, *liquid);
+  if (before && flow.face_velocity) renew_new_face_velocities(flow, *before);
   return true;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plants the faults of faults.py in the sources, one at a time, and sees which of them the tests notice.
+"""Plants the faults of faults.py and faults_of_runs.py in the sources, one at a time, and sees which of them the tests notice.
 
     plant.py BUILD [--only TEXT] [--out FILE]   builds what changed in the build folder, runs the fault's tests there
     plant.py --check                            every text stands exactly once in its file
@@ -15,16 +15,20 @@ import pathlib
 import subprocess
 import sys
 
-from faults import FAULTS
+import faults
+import faults_of_runs
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ENOUGH = 0.9
 
 
-def stale(faults):
+FAULTS = faults.FAULTS + faults_of_runs.FAULTS
+
+
+def stale(chosen):
     def count(file, text):
         return (ROOT / file).read_text().count(text) if (ROOT / file).exists() else 0
-    return [(file, text) for file, text, _, _ in faults if count(file, text) != 1]
+    return [(file, text) for file, text, _, _ in chosen if count(file, text) != 1]
 
 
 def run(*command):
@@ -65,8 +69,8 @@ def main():
     parser.add_argument("--only", default="", help="faults whose file or text holds this")
     parser.add_argument("--out", type=pathlib.Path, help="JSON file for the outcomes")
     options = parser.parse_args()
-    faults = [fault for fault in FAULTS if options.only in fault[0] or options.only in fault[1]]
-    gone = stale(faults)
+    chosen = [fault for fault in FAULTS if options.only in fault[0] or options.only in fault[1]]
+    gone = stale(chosen)
     for file, text in gone:
         print(f"stale: {file} does not hold exactly once: {text}")
     if options.check:
@@ -78,7 +82,7 @@ def main():
     if changed:
         sys.exit(f"commit or stash first, planting overwrites files:\n{changed}")
     outcomes = []
-    for fault in faults:
+    for fault in chosen:
         if (fault[0], fault[1]) in gone:
             continue
         outcome = {"file": fault[0], "text": fault[1], "fault": fault[2], **plant(options.build, fault)}
@@ -88,7 +92,7 @@ def main():
             options.out.write_text(json.dumps(outcomes, indent=1) + "\n")
     noticed = sum(outcome["outcome"] == "noticed" for outcome in outcomes)
     planted = sum(outcome["outcome"] in ("noticed", "missed") for outcome in outcomes)
-    print(f"{noticed} of {planted} faults noticed; {len(faults) - planted} stale")
+    print(f"{noticed} of {planted} faults noticed; {len(chosen) - planted} stale")
     return 0 if planted == len(faults) and noticed >= ENOUGH * planted else 1
 
 
