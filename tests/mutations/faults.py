@@ -332,7 +332,7 @@ FAULTS = [
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
     ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
-    ("dem_side/row_file.cpp", "{liggghts_->atom->f, 3}, ", "", CONTINUED),
+    ("dem_side/row_file.cpp", "{\"force\", 3, liggghts_->atom->f}, ", "", CONTINUED),
     ("dem_side/row_file.cpp", "value += column.width;", "", CONTINUED),
     ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
     ("foam_side/move_mesh.cpp", "if (open || ", "if ((open && false) || ", MOVING),
