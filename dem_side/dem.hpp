@@ -179,8 +179,9 @@ class Dem {
   void read_rows();
   /// What of local particles is in that file.
   struct Columns {
-    double* const* of;
+    std::string name;
     int width;
+    double* const* of;
   };
   std::vector<Columns> columns() const;
   Stream found_stream(int i) const;

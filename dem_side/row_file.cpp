@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What demvof keeps of each particle, for the run that goes on: by its number, in pieces that need no room.
-// In LIGGGHTS's own restart file it would go through one buffer for all particles.
-
-#include <fmt/format.h>
+// In LIGGGHTS's own restart file it would go through one buffer for all particles. The first line names the
+// columns: the run that goes on may have other forces, and with them other ones.
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <unordered_map>
 
 #include "atom.h"
@@ -17,7 +17,8 @@
 namespace demvof {
 namespace {
 
-constexpr int in_a_piece = 4096;  // particles
+constexpr int in_a_piece = 4096;      // particles
+constexpr const char* number = "id";  // the first column
 
 template <class Columns>
 int width_of(const Columns& columns) {
@@ -26,27 +27,44 @@ int width_of(const Columns& columns) {
   return width;
 }
 
-/// Throws InputError where the file is not that of so many particles with so many numbers each.
-void require_size(const std::filesystem::path& file, double particles, int width) {
-  std::error_code absent;
-  const auto size = std::filesystem::file_size(file, absent);
-  if (absent)
-    throw InputError(fmt::format(
-        "--continue: there is no {}: the state was written by a version of demvof that kept this elsewhere; "
-        "go on with that version, or start a new run",
-        file.string()));
-  if (static_cast<double>(size) != particles * width * sizeof(double))
-    throw InputError(fmt::format(
-        "--continue: {} has {} bytes, and {:.0f} particles with {} numbers each make {:.0f}: it was written "
-        "by another version of demvof, or with other forces; go on with these, or start a new run",
-        file.string(), size, particles, width, particles * width * sizeof(double)));
+template <class Columns>
+std::string first_line(const Columns& columns) {
+  std::ostringstream line;
+  line << number;
+  for (const auto& column : columns) line << ' ' << column.name << ' ' << column.width;
+  return line.str();
+}
+
+/// Those of a file, each with its place in this run; nowhere: this run has no such column. One that the file
+/// has not stays as it is for a new particle.
+template <class Columns>
+Columns columns_of(const std::string& line, const Columns& here) {
+  Columns all;
+  std::istringstream words(line);
+  std::string first;
+  if (!(words >> first) || first != number) return {};
+  for (typename Columns::value_type one{}; words >> one.name >> one.width; all.push_back(one)) {
+    one.of = nullptr;
+    for (const auto& own : here)
+      if (own.name == one.name && own.width == one.width) one.of = own.of;
+  }
+  return all;
+}
+
+/// Of rank 0, for all.
+std::string tell_all(std::string text, MPI_Comm comm) {
+  int length = static_cast<int>(text.size());
+  check_mpi(MPI_Bcast(&length, 1, MPI_INT, 0, comm), "MPI_Bcast");
+  text.resize(static_cast<std::size_t>(length));
+  check_mpi(MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm), "MPI_Bcast");
+  return text;
 }
 
 }  // namespace
 
 std::vector<Dem::Columns> Dem::columns() const {
-  std::vector<Columns> all = {{liggghts_->atom->f, 3}, {liggghts_->atom->torque, 3}};
-  for (const auto& [name, width] : kept_rows_) all.push_back({particle_rows(name), width});
+  std::vector<Columns> all = {{"force", 3, liggghts_->atom->f}, {"torque", 3, liggghts_->atom->torque}};
+  for (const auto& [name, width] : kept_rows_) all.push_back({name, width, particle_rows(name)});
   return all;
 }
 
@@ -58,6 +76,7 @@ void Dem::write_rows(const std::filesystem::path& file) const {
   std::ofstream to;
   if (rank == 0) to.open(file, std::ios::binary);
   const std::vector<Columns> kept = columns();
+  if (rank == 0) to << first_line(kept) << '\n';
   for (int from = 0; from < ranks; ++from) {
     int count = atom.nlocal;
     check_mpi(MPI_Bcast(&count, 1, MPI_INT, from, world_), "MPI_Bcast");
@@ -85,14 +104,16 @@ void Dem::read_rows() {
   const LAMMPS_NS::Atom& atom = *liggghts_->atom;
   int rank;
   check_mpi(MPI_Comm_rank(world_, &rank), "MPI_Comm_rank");
-  const std::filesystem::path file = rows_file(restart_file_);
-  const std::vector<Columns> kept = columns();
-  const int width = width_of(kept);
   std::ifstream from;
-  if (rank == 0) {
-    require_size(file, static_cast<double>(atom.natoms), width);
-    from.open(file, std::ios::binary);
-  }
+  if (rank == 0) from.open(rows_file(restart_file_), std::ios::binary);
+  std::string line;
+  std::getline(from, line);
+  const std::vector<Columns> kept = columns_of(tell_all(line, world_), columns());
+  if (kept.empty())
+    throw InputError("--continue: " + rows_file(restart_file_).string() +
+                     " does not begin with the names of what it holds: it is not there, or of an earlier "
+                     "version of demvof; go on with that version, or start a new run");
+  const int width = width_of(kept);
   std::unordered_map<int, int> place;
   for (int i = 0; i < atom.nlocal; ++i) place.emplace(atom.tag[i], i);
   std::vector<double> piece(static_cast<std::size_t>(in_a_piece * width));
@@ -102,20 +123,22 @@ void Dem::read_rows() {
       length = static_cast<int>(from.gcount() / static_cast<long>(sizeof(double)));
     }
     check_mpi(MPI_Bcast(&length, 1, MPI_INT, 0, world_), "MPI_Bcast");
+    if (length % width != 0)
+      throw InputError("--continue: " + rows_file(restart_file_).string() + " ends within a particle");
     check_mpi(MPI_Bcast(piece.data(), length, MPI_DOUBLE, 0, world_), "MPI_Bcast");
     for (const double* row = piece.data(); row != piece.data() + length; row += width) {
       const auto found = place.find(static_cast<int>(row[0]));
       if (found == place.end()) continue;
       const double* value = row + 1;
       for (const Columns& column : kept) {
-        std::copy_n(value, column.width, column.of[found->second]);
+        if (column.of) std::copy_n(value, column.width, column.of[found->second]);
         value += column.width;
       }
       place.erase(found);
     }
   }
   if (!place.empty())
-    throw InputError("--continue: " + file.string() + " does not know all particles of " +
+    throw InputError("--continue: " + rows_file(restart_file_).string() + " does not know all particles of " +
                      restart_file_.string());
 }
 

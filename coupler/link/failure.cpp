@@ -73,6 +73,8 @@ void report_failure(const Failure& failure, const std::string& text, bool quiet)
   }
 }
 
+// By the watching thread, too, while the main thread writes: the log's last words may then stand twice, or
+// not at all. Without, all that is in the buffer would be lost, and mostly says why.
 void end_now(int exit_code) {
   std::cout.flush();
   std::fflush(nullptr);

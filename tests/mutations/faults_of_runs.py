@@ -43,7 +43,7 @@ FAULTS = [
     ("foam_side/fluid_case.cpp", "if (is_open() && error_ == 0) error_ = errno;", "", WRONG_USE),
     ("dem_side/run.cpp", "    dem.require_whole_log();\n", "", WRONG_USE),
     ("dem_side/run.cpp", "if (last) dem.go_on_from(last->random);", "", CONTINUED),
-    ("dem_side/row_file.cpp", "{liggghts_->atom->f, 3}, ", "", CONTINUED),
+    ("dem_side/row_file.cpp", "{\"force\", 3, liggghts_->atom->f}, ", "", CONTINUED),
     ("dem_side/row_file.cpp", "value += column.width;", "", CONTINUED),
     ("dem_side/dem.cpp", "restart_pbc_any = 1;", "restart_pbc_any = 0;", CONTINUED),
     ("foam_side/move_mesh.cpp", "if (open || ", "if ((open && false) || ", MOVING),
@@ -115,6 +115,5 @@ FAULTS = [
     ("foam_side/refine_mesh.cpp", "halved(own) && halved(next)", "halved(own) && !halved(next)", NEW_FACES),
     ("foam_side/quantities.cpp", "x + way[i].x()", "x - way[i].x()", TURBULENT_RANKS),
     ("foam_side/case_sources.cpp", "cells->selectionMode() == Cells::smAll ||", "true ||", REFUSALS),
-    ("dem_side/row_file.cpp", "    require_size(file, static_cast<double>(atom.natoms), width);\n", "    if (width < 0) require_size(file, static_cast<double>(atom.natoms), width);\n", WRONG_USE),
     ("dem_side/run.cpp", "if (std::find(unseen.begin(), unseen.end(), fix) == unseen.end())", "if (std::find(unseen.begin(), unseen.end(), fix) != unseen.end())", REFUSALS),
 ]

@@ -12,6 +12,7 @@ import unittest
 
 from box_case import BoxCase, Particle
 from histories import differences
+from pair import wait_for_signs
 from reporting.run import Run
 
 DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -33,9 +34,10 @@ class BalancedRanks(unittest.TestCase):
 
     def run_case(self, name, *options):
         out = FOLDER / self._testMethodName / name
-        done = subprocess.run([DEMVOF, "run", str(self.case_file), "--out", str(out), "--fluid-ranks", "2", *options],
-                              text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300, check=False)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        process = subprocess.Popen([DEMVOF, "run", str(self.case_file), "--out", str(out), "--fluid-ranks", "2", *options],
+                                   text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        code, text = wait_for_signs(process, out, 60)
+        self.assertEqual(code, 0, text)
         run = Run(out)
         cells = run.results["cells"]
         print(f"{self._testMethodName}, {name}: most cells on a rank over the mean {cells['imbalance']:.3f}, moved "

@@ -14,7 +14,7 @@ import unittest
 
 from box_case import BoxCase, Cyclic, Open, Particle, Wall, SIDES
 from histories import differences
-from pair import Pair
+from pair import Pair, wait_for_signs
 from reporting.run import Run
 
 BOUND = 2e-7  # of a quantity's largest value; the pressure solver stops at 1e-10
@@ -39,9 +39,9 @@ class Continued(unittest.TestCase):
         """Exit code and what was printed."""
         out = FOLDER / self._testMethodName / name
         force = [] if "--continue" in options else ["--force"]
-        done = subprocess.run([DEMVOF, "run", str(self.case_file), "--out", str(out), *force, *options], text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False)
-        return done.returncode, done.stdout, out
+        process = subprocess.Popen([DEMVOF, "run", str(self.case_file), "--out", str(out), *force, *options], text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+        return *wait_for_signs(process, out, 60), out
 
     def run_to(self, name, end_time, *options):
         code, text, out = self.run_case(name, "--set", f"coupling.end_time={end_time}", *options)
@@ -181,6 +181,25 @@ fix inject all insert/rate/region seed 32452843 distributiontemplate beads npart
     def test_added_mass_and_other_kernel(self):
         self.case(forces=[{"drag": "schiller_naumann"}, "pressure_gradient", "viscous_stress", {"added_mass": 0.5}])
         self.check_same("--set", "coupling.averaging.kernel=linear")
+
+    def test_other_forces(self):
+        """What particles carry differs with the forces: what both have goes on, the rest begins, or goes. Of the beads' energy
+        that is 2.2e-4 in ten windows."""
+        few = "[{drag: schiller_naumann}, pressure_gradient]"
+        many = "[{drag: schiller_naumann}, pressure_gradient, viscous_stress]"
+        beads = [Particle((0.01 + 0.02 * (i % 2), 0.006 + 0.008 * (i // 2 % 2), 0.004 + 0.004 * (i // 4)), 2e-3, 2500,
+                          velocity=(0, 0, 0.1)) for i in range(12)]  # in the water
+        self.case(particles=beads, **SOLVED)
+        whole = self.run_to("whole", 0.02, "--particle-ranks", "2", "--set", "forces=" + few)
+        for first, then in ((few, many), (many, few)):
+            parts = self.run_to("parts", 0.01, "--particle-ranks", "2", "--set", "forces=" + first)
+            code, text, _ = self.run_case("parts", "--continue", "--set", "coupling.end_time=0.02", "--set", "forces=" + then)
+            self.assertEqual(code, 0, text)
+            difference = differences(Run(parts), Run(whole))["particle_kinetic_energy"]
+            print(f"test_other_forces: {difference:.1e}")
+            self.assertLess(difference, 6e-4)
+            for quantity, error in Run(parts).results["conservation"].items():
+                self.assertLess(error, 1e-11, quantity)
 
     def check_stopped(self, stop):
         """stop: what to do to the run; returns what it ended with."""
