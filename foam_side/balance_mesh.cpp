@@ -111,7 +111,10 @@ class KeptWallDistance {
   }
   /// For the mesh as it is now.
   void give_back() {
-    if (distance_) Foam::regIOobject::store(distance_).movePoints();
+    if (!distance_) return;
+    distance_->checkIn();
+    distance_->store();
+    distance_->movePoints();
   }
 
  private:

@@ -141,11 +141,12 @@ void OwnWorld::fail(int exit_code, const std::string& message, bool heard) const
     failure.exit_code = exit_code;
   }
   leave_note(failure);
-  if (!heard) pair_->failure_signal->send(failure);
   // Rank 0 passes on what others said. All ranks of a side mostly fail with the same words: rank 0 says
-  // them, and the others wait for it.
-  report_failure(failure, rank_ == 0 ? message : fmt::format("[rank {}] {}", rank_, message),
-                 rank_ != 0 && (heard || heard_the_same(message)));
+  // them, before the other side can say that it did, and the others wait for it.
+  if (rank_ == 0) report_failure(failure, message);
+  if (!heard) pair_->failure_signal->send(failure);
+  if (rank_ != 0)
+    report_failure(failure, fmt::format("[rank {}] {}", rank_, message), heard || heard_the_same(message));
   pair_->failure_signal->flush(1.0);
   const auto until = std::chrono::steady_clock::now() + (heard ? time_for_the_sender : time_for_the_partner);
   const bool first = !heard && exit_code != exit_partner_lost;

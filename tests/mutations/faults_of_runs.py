@@ -109,8 +109,7 @@ FAULTS = [
     # ---- a mesh that refines itself, on several ranks
     ("foam_side/fit_flux.cpp", "Foam::Pstream::master() ? 0 : -1, 0", "0, 0", CLOSED_RANKS),
     ("foam_side/refinement.cpp", "  add_ring_by_points(mark);\n", "  if (parameters.buffer < 0) add_ring_by_points(mark);\n", TURBULENT_RANKS),
-    ("foam_side/balance_mesh.cpp", "    distance_->checkOut();\n", "", TURBULENT_RANKS),
-    ("foam_side/balance_mesh.cpp", "  distance.give_back();\n", "", TURBULENT_RANKS),
+    ("foam_side/balance_mesh.cpp", "    distance_->checkIn();\n", "", BALANCE),
     ("foam_side/refine_mesh.cpp", "  const_cast<Foam::nearWallDist&>(flow.turbulence->y()).correct();\n", "", TURBULENT_RANKS),
     ("foam_side/refine_mesh.cpp", "halved(own) && halved(next)", "halved(own) && !halved(next)", NEW_FACES),
     ("foam_side/quantities.cpp", "x + way[i].x()", "x - way[i].x()", TURBULENT_RANKS),

@@ -12,6 +12,7 @@
 #include "foam_side/balance_mesh.hpp"
 #include "syncTools.H"
 #include "tests/support/mpi_main.hpp"
+#include "wallDist.H"
 
 namespace demvof::test {
 namespace {
@@ -112,6 +113,12 @@ void expect_same_across_cuts(const Foam::fvMesh& mesh) {
   }
 }
 
+/// As turbulence models have it: they keep the reference.
+const Foam::wallDist& distance_from_sides(const Foam::fvMesh& mesh) {
+  const Foam::labelHashSet sides{mesh.boundaryMesh().findPatchID("walls")};
+  return Foam::wallDist::New(mesh, Foam::word("meshWave"), sides, Foam::word("wall"));
+}
+
 double ball(const vector& x, double at) {
   return Foam::mag(x - vector(0.1, 0.05, at)) < 0.03 ? 1 : 0;
 }
@@ -123,6 +130,7 @@ TEST(BalancedRanks, EverythingGoesAlong) {
   const FoamCase box("balanced_ranks", {{"nx", "10"}, {"ny", "5"}, {"nz", "15"}, {"p_tolerance", "1e-10"}},
                      "(1 1 3)");
   const auto flow = box.open(scene(true, true, true), &refinement);
+  const Foam::wallDist& distance = distance_from_sides(flow->mesh);
   const double low = 0.06;
   set_alpha(*flow, [&](const vector& x) { return ball(x, low); });
   const auto bed = [&] {
@@ -134,7 +142,7 @@ TEST(BalancedRanks, EverythingGoesAlong) {
   set_porosity_target(*flow, bed());
   while (advance_clock(*flow)) do_step(*flow);
 
-  const State before = state_of(*flow);
+  State before = state_of(*flow);
   const double was = imbalance(flow->mesh);
   EXPECT_FALSE(balance_mesh(*flow)) << "nobody asked for it";
   flow->refinement->parameters.max_imbalance = 1;
@@ -144,7 +152,8 @@ TEST(BalancedRanks, EverythingGoesAlong) {
     std::cout << "most cells on a rank over the mean: " << was << ", then " << is << "\n";
   EXPECT_GT(was, 1.5);
   EXPECT_LT(is, 1.1);
-  const State after = state_of(*flow);
+  State after = state_of(*flow);
+  for (State* state : {&before, &after}) state->scalars.erase("yWall");  // found anew, from rank to rank
   expect_same(before.scalars, after.scalars);
   expect_same(before.vectors, after.vectors);
   expect_same(before.faces, after.faces, 1e-13);  // the two ranks at a cut differ in the last digit
@@ -162,6 +171,14 @@ TEST(BalancedRanks, EverythingGoesAlong) {
     while (advance_clock(*flow)) do_step(*flow);
   }
   EXPECT_EQ(Foam::returnReduce(flow->mesh.nCells(), Foam::sumOp<label>()), all);
+
+  // The distance that somebody has a reference to is that of the mesh as it is now.
+  EXPECT_EQ(&distance, &distance_from_sides(flow->mesh));
+  const scalarField y(distance.y().primitiveField());
+  ASSERT_EQ(y.size(), flow->mesh.nCells());
+  const_cast<Foam::wallDist&>(distance).release();
+  const_cast<Foam::wallDist&>(distance).checkOut();
+  EXPECT_EQ(Foam::gMax(Foam::mag(y - distance_from_sides(flow->mesh).y().primitiveField())()), 0);
 }
 
 }  // namespace
