@@ -128,6 +128,13 @@ std::string advice_on(const std::string& error, const std::filesystem::path& scr
   if (error.find("Atom sorting has bin size") != std::string::npos)
     return "there are no particles yet by whose size LIGGGHTS could sort them: add the line 'atom_modify "
            "sort 0 0'";
+  if (error.find("Too many atom sorting bins") != std::string::npos)
+    return "the particles' box is very large against them: add the line 'atom_modify sort 0 0', or make the "
+           "box "
+           "smaller";
+  if (error.find("Too many neighbor bins") != std::string::npos)
+    return "the particles' box is very large against them: make it smaller (create_box, read_data); where "
+           "particles leave it they are lost";
   if (error.find("Invalid pair style") != std::string::npos)
     return on_style(script, "pair_style", pair_style_instead);
   if (error.find("Invalid atom style") != std::string::npos)
