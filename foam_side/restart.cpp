@@ -110,9 +110,8 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
     const scalarField& goal = flow.porosity->goal.field();
     state["void_fraction_goal"] = std::vector<double>(goal.begin(), goal.end());
   }
-  if (need_acceleration(forces)) {  // Du/Dt looks back by a step
+  if (need_acceleration(forces))  // Du/Dt looks back by a step
     state["velocity_before"] = components(flow.U.oldTime().primitiveField());
-  }
   if (const Foam::vectorField* own = find_own_gradient(flow)) state["own_gradient"] = components(*own);
   if (const Foam::vectorField* kinks = find_gradient_at_kinks(flow))
     state["gradient_at_kinks"] = components(*kinks);
@@ -134,6 +133,7 @@ void go_on(Flow& flow, const json& state) {
     flow.refinement->first = false;
   }
   if (flow.porosity) {
+    if (!state.contains("void_fraction_goal")) throw InputError("the flow had no void fraction, it has now");
     const auto goal = state.at("void_fraction_goal").get<std::vector<double>>();
     forAll(flow.porosity->goal, cell) flow.porosity->goal[cell] = goal.at(static_cast<std::size_t>(cell));
   }

@@ -49,6 +49,7 @@ std::string text_of(const RestartPoint& point) {
                {"bulk_cells", point.frame.bulk_cells},
                {"fluid_ranks", point.frame.fluid_ranks},
                {"bulk_blocks", point.frame.bulk_blocks},
+               {"schedule", point.frame.schedule},
                {"configuration", Json::parse(point.configuration)},
                {"files", Json::parse(to_text(point.files))}};
   text["checksum"] = Checksum().add(text.dump()).text();
@@ -77,6 +78,7 @@ RestartPoint read(const fs::path& path) {
     text.at("bulk_cells").get_to(point.frame.bulk_cells);
     text.at("fluid_ranks").get_to(point.frame.fluid_ranks);
     point.frame.bulk_blocks = text.value("bulk_blocks", std::array<int, 3>{});
+    point.frame.schedule = text.value("schedule", "");
     point.configuration = text.at("configuration").dump();
     point.files = state_files(text.at("files").dump());
     return point;
@@ -146,6 +148,8 @@ void require_fit(const fs::path& run, const RestartPoint& point, const StateFram
                "coupling.window",
                then.window_length > 0 ? fmt::format("{} s", then.window_length)
                                       : "a map: windows of their own lengths");
+  require_same(run, then.schedule.empty() || now.schedule == then.schedule, "coupling.schedule",
+               then.schedule);
   require_same(run, now.bulk_cells == then.bulk_cells, "bulk_grid.cells",
                fmt::format("[{}]", fmt::join(then.bulk_cells, ", ")));
   const double size = norm(then.bulk_upper - then.bulk_lower);

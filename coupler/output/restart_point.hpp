@@ -21,7 +21,8 @@ struct StateFrame {
   std::array<int, 3> bulk_cells{};
   int fluid_ranks = 1;  // for which its fluid case is divided; 0, where it is asked for: any
   std::array<int, 3>
-      bulk_blocks{};  // whose owners wrote fluid.<rank>; 0: by demvof of before blocks; may change
+      bulk_blocks{};     // whose owners wrote fluid.<rank>; 0: by demvof of before blocks; may change
+  std::string schedule;  // what one side still owes the other is of another window; empty: not known
 };
 
 /// A state that a run can be continued from: the end of a window of which both programs have written

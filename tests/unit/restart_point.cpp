@@ -68,7 +68,7 @@ class RestartPoints : public testing::Test {
   }
 
   const fs::path run_ = fs::path(testing::TempDir()) / ("demvof_restart_" + std::to_string(getpid()));
-  const StateFrame frame_{1e-3, {0, 0, 0}, {0.4, 0.5, 0.6}, {4, 5, 6}, 2, {1, 1, 2}};
+  const StateFrame frame_{1e-3, {0, 0, 0}, {0.4, 0.5, 0.6}, {4, 5, 6}, 2, {1, 1, 2}, "staggered"};
 };
 
 TEST_F(RestartPoints, ReadsBackExactly) {
@@ -225,6 +225,9 @@ TEST_F(RestartPoints, WhatItBelongsToMustNotChange) {
   EXPECT_TRUE(refused(other));
   other = frame_;
   other.fluid_ranks = 1;
+  EXPECT_TRUE(refused(other));
+  other = frame_;
+  other.schedule = "concurrent";
   EXPECT_TRUE(refused(other));
   EXPECT_TRUE(refused(frame_, point.time));
 }

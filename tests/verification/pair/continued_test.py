@@ -168,6 +168,8 @@ fix inject all insert/rate/region seed 32452843 distributiontemplate beads npart
     def test_volume_adding(self):
         self.case()
         self.check_same("--set", "coupling.phase_interchange=volume_adding")
+        self.check_refused(FOLDER / self._testMethodName / "parts", "the flow had no void fraction",
+                           "--set", "coupling.end_time=0.035")
 
     @unittest.skipUnless("--long" in sys.argv, "a minute: with --long")
     def test_replacement(self):
@@ -239,6 +241,7 @@ fix inject all insert/rate/region seed 32452843 distributiontemplate beads npart
         self.assertIn("latest.json; a run of a pair leaves one", text)
         part = self.run_to("parts", 0.01)
         self.check_refused(part, "coupling.window was 0.001 s", "--set", "coupling.window=5e-4")
+        self.check_refused(part, "coupling.schedule was staggered", "--set", "coupling.schedule=concurrent")
         self.check_refused(part, "bulk_grid.cells was [8, 4, 8]", "--set", "bulk_grid.cells=[4,4,8]")
         self.check_refused(part, "is at 0.01 s already", "--set", "coupling.end_time=0.01")
         self.check_refused(part, "is of another fluid case", "--set", "fluid.prepare=[blockMesh]")
