@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "foam_side/correction_history.hpp"
 #include "foam_side/face_drag.hpp"
 #include "foam_side/openfoam.hpp"
 
@@ -18,6 +19,9 @@ struct PressureSystem {
   std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
   std::unique_ptr<surfaceScalarField> free_side;     // project_velocity.cpp, of the correction before, N/m
+  CorrectionHistory history;
+  int correction = 0;
+  bool settled = false;
   bool viscous = false;                              // nu dt/dx2 > 1/4, with particles: project_velocity
 };
 

@@ -42,6 +42,7 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/unsettled_corrections.hpp"
 
 namespace demvof {
 namespace {
@@ -192,7 +193,7 @@ void slow_free_sides(Flow& flow, const scalarField& inertia) {
   const FaceDrag& c = *system.face_drag;
   const surfaceScalarField drag(c.resistance / c.response);
   surfaceScalarField found(fvc::snGrad(flow.p_rgh) * flow.mesh.magSf() + drag * flow.phi);
-  if (system.free_side && flow.pimple.corrPISO() > 1) {
+  if (system.free_side && system.correction > 1) {
     const dimensionedScalar tiny("tiny", drag.dimensions(), Foam::VSMALL);
     const surfaceScalarField lag((drag - drag_that_answers(flow, inertia)) / (drag + tiny) *
                                  (*system.free_side - found));
@@ -207,7 +208,9 @@ void slow_free_sides(Flow& flow, const scalarField& inertia) {
 
 /// mu' above, Pa s.
 scalarField viscosity_for_pressure(const Flow& flow, const scalarField& resistance) {
-  scalarField mu(viscosity_of_thinner_side(flow));
+  static const int variant = getenv("DV_MU") ? atoi(getenv("DV_MU")) : 2;
+  scalarField mu(variant == 2 ? scalarField(dynamic_viscosity(flow)) : viscosity_of_thinner_side(flow));
+  if (variant > 0) return mu;
   if (!flow.porosity) return mu;
   const volScalarField& eps = flow.porosity->eps;
   const surfaceScalarField& e = flow.pressure_system.face_drag->eps_f;
@@ -247,14 +250,73 @@ Foam::vectorField residual(const Flow& flow, const Foam::vectorField& pressure) 
          source.coefficient.field() * (source.reference.field() - U) + void_fraction(flow) * pressure;
 }
 
+/// What a correction is given by the one before: pressure, its gradient at walls and at kinks, and the free
+/// sides. visit: what to do with each of these values.
+template <typename Visit>
+void each_given(Flow& flow, const Visit& visit) {
+  visit(flow.p_rgh.primitiveFieldRef());
+  for (Foam::fvPatchScalarField& at : flow.p_rgh.boundaryFieldRef())
+    if (auto* wall = dynamic_cast<Foam::fixedGradientFvPatchScalarField*>(&at)) visit(wall->gradient());
+  for (int axis = 0; axis < 3; ++axis) {
+    scalarField along(gradient_at_kinks(flow).component(axis));
+    visit(along);
+    gradient_at_kinks(flow).replace(axis, along);
+  }
+  surfaceScalarField& free_side = *flow.pressure_system.free_side;
+  visit(free_side.primitiveFieldRef());
+  for (Foam::fvsPatchScalarField& at : free_side.boundaryFieldRef()) visit(at);
+}
+
+scalarField all_given(Flow& flow) {
+  Foam::DynamicList<scalar> values;
+  each_given(flow, [&values](const scalarField& part) { values.append(part); });
+  return scalarField(values);
+}
+
+void give(Flow& flow, const scalarField& values) {
+  label next = 0;
+  each_given(flow, [&](scalarField& part) {
+    forAll(part, i) part[i] = values[next++];
+  });
+  renew_boundary_pressure(flow);
+}
+
+/// Values for each cell such that the sum of their squares is that of the velocity times the volume.
+void append_velocity(const Flow& flow, const Foam::vectorField& velocity, Foam::DynamicList<scalar>& values) {
+  forAll(velocity, cell) {
+    const vector weighted = std::sqrt(flow.mesh.V()[cell]) * velocity[cell];
+    for (int axis = 0; axis < 3; ++axis) values.append(weighted[axis]);
+  }
+}
+
+/// Root mean square of a change over that of the velocity: of the volume or of the mass, the larger one.
+double part_of_velocity(const Flow& flow, const Foam::vectorField& change) {
+  const auto part = [&](const scalarField& weight) {
+    const double all = Foam::gSum(scalarField(weight * Foam::magSqr(flow.U.primitiveField())));
+    return std::sqrt(Foam::gSum(scalarField(weight * Foam::magSqr(change))) / std::max(all, Foam::VSMALL));
+  };
+  const scalarField& volume = flow.mesh.V();
+  return std::max(part(volume), part(volume * flow.rho.primitiveField()));
+}
+
 }  // namespace
 
 void project_velocity(Flow& flow) {
-  const PressureSystem& system = flow.pressure_system;
-  const bool last = flow.pimple.corrPISO() == flow.pimple.nCorrPISO();
+  PressureSystem& system = flow.pressure_system;
+  ++system.correction;
+  static const auto env = [](const char* n, double v) { return getenv(n) ? atof(getenv(n)) : v; };
+  static const int most_corrections = env("DV_MOST", 40);
+  static const double tol = env("DV_TOL", 1e-2);
+  static const bool mix = env("DV_MIX", 1) > 0;
+  const int least = flow.pimple.nCorrPISO(), most = std::max(least, most_corrections);
+  const bool may_be_last = system.correction >= least;
   for (Foam::fvPatchScalarField& at : flow.p_rgh.boundaryFieldRef())
     if (at.fixesValue() && !at.coupled()) at.evaluate();
   if (!find_gradient_at_kinks(flow)) predicted_flux(flow);  // at the start: what it has there already
+  const bool first = !system.free_side;
+  if (first) system.free_side = std::make_unique<surfaceScalarField>("freeSide", 0 * fvc::snGrad(flow.p_rgh) * flow.mesh.magSf());
+  scalarField given(all_given(flow));
+  const Foam::vectorField kinks_given(gradient_at_kinks(flow));
   const Foam::vectorField before(gradient_at_kinks(flow) - reconstructed(flow, push_of_pressure(flow)));
   solve_momentum(flow);
   if (flow.pimple.finalIter()) {
@@ -275,7 +337,7 @@ void project_velocity(Flow& flow) {
   scalarField rate(flow.mesh.nCells(), 0.0);
   if (flow.porosity) rate = rate_to_serve(flow);
   const tmp<volScalarField> potential = fit_flux(
-      flow, flow.phi, mobility, &rate, flow.mesh.solver(flow.p_rgh.select(last && flow.pimple.finalIter())));
+      flow, flow.phi, mobility, &rate, flow.mesh.solver(flow.p_rgh.select(may_be_last && flow.pimple.finalIter())));
 
   const surfaceScalarField gained(flow.phi - predicted);
   const Foam::vectorField push = reconstructed(flow, gained);
@@ -290,8 +352,28 @@ void project_velocity(Flow& flow) {
   gradient_at_kinks(flow) += reconstructed(flow, gained / mobility) - of_potential;
   flow.p_rgh += potential();
   slow_free_sides(flow, inertia);
+  const double part = part_of_velocity(flow, Foam::vectorField(push / eps));
+  system.settled = may_be_last && (part < tol || system.correction >= most);
+  const bool last = system.settled;
+  if (last && part >= tol) {
+    note_unsettled(flow, part);
+  }
+  Foam::Info << "correction " << system.correction << " brought " << part << Foam::endl;
   if (!last) flow.p_rgh.primitiveFieldRef() += pressure_of_stress(flow, gained, inertia);
   renew_boundary_pressure(flow);
+  if (!last && mix) {
+    scalarField leaves(all_given(flow));
+    if (first) {  // what it had of free sides, it took from itself
+      label at = given.size();
+      for (const Foam::fvsPatchScalarField& patch : system.free_side->boundaryField()) at -= patch.size();
+      for (at -= system.free_side->size(); at < given.size(); ++at) given[at] = leaves[at];
+    }
+    Foam::DynamicList<scalar> open;
+    append_velocity(flow, Foam::vectorField(push / eps), open);
+    append_velocity(flow, Foam::vectorField(eps * system.inverse_diagonal->primitiveField() / (1 + system.face_drag->stiffness) * (gradient_at_kinks(flow) - kinks_given)), open);
+    system.history.add({given, leaves, scalarField(open)});
+    give(flow, system.correction == most - 1 ? system.history.again() : system.history.next());
+  }
   update_face_velocity(flow);
   make_relative(flow, flow.phi);
   if (last && flow.pimple.finalIter())  // until then that of the step before is returned
