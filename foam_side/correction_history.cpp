@@ -23,7 +23,8 @@ void CorrectionHistory::add(Correction correction) {
                       correction.open - latest_.open};
     const double before = std::sqrt(Foam::gSumSqr(change.open));
     for (int pass = 0; pass < 2; ++pass)
-      for (const Correction& other : changes_) subtract(change, Foam::gSumProd(change.open, other.open), other);
+      for (const Correction& other : changes_)
+        subtract(change, Foam::gSumProd(change.open, other.open), other);
     const double size = std::sqrt(Foam::gSumSqr(change.open));
     if (size > new_direction * before) {
       change.given /= size;

@@ -10,9 +10,9 @@ namespace demvof {
 /// The corrections of a step so far, each a linear map of what it was given, and what to give the next one.
 ///
 /// A correction is given x, leaves g(x) to the next, and leaves r(x) open, which is 0 where nothing changes
-/// any more. Of all combinations of the corrections so far the one with the least |r| goes on (Anderson, J. ACM
-/// 12 (1965) 547; of a linear map this is GMRES): what falls slowly from one correction to the next, or grows,
-/// is found from how it changed. Collective.
+/// any more. Of all combinations of the corrections so far the one with the least |r| goes on (Anderson, J.
+/// ACM 12 (1965) 547; of a linear map this is GMRES): what falls slowly from one correction to the next, or
+/// grows, is found from how it changed. Collective.
 class CorrectionHistory {
  public:
   struct Correction {
