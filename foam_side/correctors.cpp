@@ -10,7 +10,8 @@ bool outer_corrector(Flow& flow) {
 }
 
 bool pressure_corrector(Flow& flow) {
-  if (flow.pimple.correct()) return true;
+  const PressureSystem& system = flow.pressure_system;
+  if (system.viscous ? !system.settled : flow.pimple.correct()) return true;
   if (flow.pimple.turbCorr()) flow.turbulence->correct();
   return false;
 }

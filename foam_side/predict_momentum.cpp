@@ -178,6 +178,9 @@ void predict_momentum(Flow& flow) {
   PressureSystem& system = flow.pressure_system;
   extras(flow).rotating.correctBoundaryVelocity(flow.U);
   system.free_side.reset();
+  system.history = {};
+  system.correction = 0;
+  system.settled = false;
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
   if (flow.source) system.force = flow.source->force.field() + open_momentum(flow) / flow.time.deltaTValue();

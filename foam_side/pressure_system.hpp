@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "foam_side/correction_history.hpp"
 #include "foam_side/face_drag.hpp"
 #include "foam_side/openfoam.hpp"
 
@@ -18,7 +19,11 @@ struct PressureSystem {
   std::unique_ptr<FaceDrag> face_drag;               // only with particles
   std::unique_ptr<surfaceScalarField> mobility;      // flux per pressure gradient, m3 s/kg
   std::unique_ptr<surfaceScalarField> free_side;     // project_velocity.cpp, of the correction before, N/m
-  bool viscous = false;                              // nu dt/dx2 > 1/4, with particles: project_velocity
+  // project_velocity.cpp, of the present prediction:
+  CorrectionHistory history;
+  int correction = 0;    // from 1
+  bool settled = false;  // this was the last one
+  bool viscous = false;  // nu dt/dx2 > 1/4, with particles: project_velocity
 };
 
 /// How faces and cells answer to forces; A: diagonal of the momentum matrix per volume, without drag,

@@ -6,6 +6,7 @@
 #include "coupler/config/quantities.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/replacement.hpp"
+#include "foam_side/unsettled_corrections.hpp"
 
 namespace demvof {
 
@@ -18,6 +19,12 @@ std::vector<std::string> run_warnings(const Flow& flow, const ActedLimits& limit
         "alpha left [0, 1] by up to {:.2g}: nLimiterIter 10 (MULES's own is 3), more "
         "nAlphaSubCycles or a smaller maxAlphaCo (docs/warnings.md, Liquid fraction out of bounds)",
         flow.alpha_excess));
+  if (const UnsettledCorrections open = unsettled_corrections(flow); open.predictions > 0)
+    lines.push_back(fmt::format(
+        "in {:.0f} momentum predictions of a thick liquid the pressure corrections were given up while they "
+        "still changed the velocity by up to {:.2g} of itself: the flow lags behind its forces. What to try: "
+        "shorter steps, tighter relTol of U and p_rgh (docs/warnings.md, Unsettled corrections)",
+        open.predictions, open.most));
   if (limits.relieved_cells > 0)
     lines.push_back(
         fmt::format("bulk cells above coupling.averaging.maximum_solid_fraction passed {:.3g} m3 to their "

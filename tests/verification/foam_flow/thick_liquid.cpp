@@ -11,6 +11,7 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/unsettled_corrections.hpp"
 #include "foam_side/vectors.hpp"
 
 namespace demvof::test {
@@ -314,6 +315,55 @@ TEST_P(ThickLiquid, MomentumIsKept) {
               << worst << " of that given\n";
     EXPECT_LT(worst, 3e-14);
   }
+}
+
+/// A bed that sinks in a cup of liquid under gas, creeping: its weight and viscosity alone say how fast,
+/// however long the steps. The void fraction changes gradually, where the pressure of the stress has to stay
+/// small for the corrections not to grow; they then leave most of it to the coming ones, hundreds of steps
+/// long.
+TEST_P(ThickLiquid, BedSinksAtOnce) {
+  const double dx = 0.005, dt = 1e-3;
+  const auto sinking = [&](double number, const std::string& corrections) {
+    const double nu = number * dx * dx / dt;
+    const auto flow = small_box("thick_sinking", nu, dt,
+                                {{"g_z", "0"},
+                                 {"walls_U", "{ type noSlip; }"},
+                                 {"bottom_U", "{ type noSlip; }"},
+                                 {"pressure_correctors", corrections},
+                                 {"p_tolerance", "1e-12"},
+                                 {"p_rel_tol", "1e-3"}})
+                          .open(scene(true, true, false));
+    set_alpha(*flow, [](const vector& x) { return x.z() < 0.04 ? 1 : 0; });
+    const auto solid = [](const vector& x) {
+      return std::max(0.0, 0.4 * std::sin(pi * x.x() / 0.03) * std::cos(pi * (x.z() - 0.015) / 0.03));
+    };
+    const scalarField eps = cell_values(*flow, [&](const vector& x) { return 1 - solid(x); });
+    set_initial_porosity(*flow, eps);
+    forAll(eps, cell) flow->source->force.field()[cell] = vector(0, 0, -1e3 * nu * (1 - eps[cell]));
+    const int steps = std::max(3, static_cast<int>(200 / number));
+    for (int step = 0; step < steps; ++step) {
+      begin_window(*flow, flow->time.value() + dt);
+      set_porosity_target(*flow, eps);
+      advance(*flow);
+    }
+    return std::make_pair(Foam::sum(flow->U.primitiveField().component(2)() * (1 - eps)) / Foam::sum(1 - eps),
+                          unsettled_corrections(*flow).most);
+  };
+  static const double reference = sinking(10, "20").first;
+  const auto [found, unsettled] = sinking(GetParam(), "2");
+  std::cout << "nu dt/dx2 " << GetParam() << ": sinks with " << found << " m/s, " << found / reference
+            << " of the settled one, left open by the corrections " << unsettled << "\n";
+  EXPECT_NEAR(found / reference, 1, 0.03);
+  EXPECT_EQ(unsettled, 0);
+}
+
+/// What the warning says: no flow of these tests is given up.
+TEST(ThickLiquidGivenUp, IsCounted) {
+  const auto flow = small_box("thick_given_up", 1, 1e-3, {}).open(scene(true, true, false));
+  EXPECT_EQ(unsettled_corrections(*flow).predictions, 0);
+  for (const double part : {0.1, 0.3, 0.2}) note_unsettled(*flow, part);
+  EXPECT_EQ(unsettled_corrections(*flow).predictions, 3);
+  EXPECT_EQ(unsettled_corrections(*flow).most, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(ViscousNumber, ThickLiquid, testing::Values(0.5, 2, 30, 1e3, 1e6));
