@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Tests pass under sanitizers: sanitizers.sh [asan] [tsan], by default both. All programs are built with them; asan:
 # address, leak and undefined-behaviour sanitizers; tsan: the thread sanitizer, on the coupler's tests and on pairs that
-# run on several ranks, go on, are stopped and killed. Any report fails, also of a process whose exit code nobody sees.
+# run on several ranks, go on, are stopped and killed. Its reports are in files: those of a process that is killed, or ends
+# itself without its exit handlers, are seen by no test.
 cd "$(dirname "$0")/../.." || exit 2
 shopt -s nullglob
 for preset in ${*:-asan tsan}; do

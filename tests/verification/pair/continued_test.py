@@ -207,7 +207,7 @@ fix inject all insert/rate/region seed 32452843 distributiontemplate beads npart
         """stop: what to do to the run; returns what it ended with."""
         self.case(fine=(40, 20, 40))
         pair = Pair(DEMVOF, self.case_file, FOLDER / self._testMethodName / "parts")
-        pair.wait_for_window(12)
+        pair.wait_for_window(12, 1200)  # under a sanitizer, too
         stop(pair)
         code, text = pair.wait(60)
         self.assertNotEqual(code, 0, text)
