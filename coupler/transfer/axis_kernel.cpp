@@ -89,7 +89,6 @@ AxisKernel::AxisKernel(const BulkGrid& grid, const AveragingParameters& averagin
       break;
     case Kernel::centre:
     case Kernel::volume:  // sphere_cells.hpp
-      half_width_ = 0;
       break;
   }
   // One more than it should be: where a cell begins is known to round-off only.

@@ -67,7 +67,7 @@ class AxisKernel {
   AxisCells cells_;
   Kernel kernel_;
   double width_, scale_;  // of the Gaussian, in cells; 1/(sqrt 2 width)
-  double half_width_;
+  double half_width_ = 0;
   int most_cells_;
 };
 
