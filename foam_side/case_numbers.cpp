@@ -177,14 +177,4 @@ std::string pimple_by_default(const Foam::fvMesh& mesh) {
          "(nCorrectors 1) among them; three are usual with particles";
 }
 
-std::string one_correction_for_thick_liquid(const Flow& flow, double longest_step) {
-  const double number = viscous_rate(flow) * longest_step;
-  if (!flow.source || number <= most_of_corrections || flow.pimple.nCorrPISO() > 1) return {};
-  return fmt::format(
-      "nu dt/dx2 may be {:.2g} and nCorrectors is 1: at the edge of a stiff bed between sides that slip the "
-      "velocity "
-      "grows from window to window; give 2 or more (docs/stability.md, Where it breaks, or is wrong)",
-      number);
-}
-
 }  // namespace demvof

@@ -19,7 +19,4 @@ void require_solvers(const Flow& flow, double longest_step);
 /// What to say of an fvSolution that has no PIMPLE, or has it under another name; empty otherwise.
 std::string pimple_by_default(const Foam::fvMesh& mesh);
 
-/// What to say of a thick liquid between particles whose steps have one pressure correction; empty otherwise.
-std::string one_correction_for_thick_liquid(const Flow& flow, double longest_step);
-
 }  // namespace demvof

@@ -328,8 +328,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   for (const std::string& said :
        {slope_without_effect(flow->mesh, flow->gravity),
         gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow),
-        pimple_by_default(flow->mesh), one_correction_for_thick_liquid(*flow, step), paired ? forget : "",
-        paired ? unknown_sources(*flow) : ""})
+        pimple_by_default(flow->mesh), paired ? forget : "", paired ? unknown_sources(*flow) : ""})
     if (!said.empty()) scene.advice.push_back(said);
   if (refinement && world.size() > 1 && cells_stay(flow->mesh))
     scene.advice.emplace_back(

@@ -72,11 +72,6 @@ def with_time_scheme():
     return replaced(box("time_scheme").write(), "fluid/system/fvSchemes", "Euler", "CrankNicolson 0.9")
 
 
-def with_corrections(number, nu=1.0):
-    case_file = box(f"corrections_{number}_{nu}", liquid=(1000, nu)).write()
-    return replaced(case_file, "fluid/system/fvSolution", "nCorrectors 3", f"nCorrectors {number}")
-
-
 def with_zone():
     case_file = box("rotating_zone", extra_files={"fluid/constant/MRFProperties": ROTATING}).write()
     return replaced(case_file, "fluid/system/blockMeshDict", "hex (0 1 2 3 4 5 6 7)", "hex (0 1 2 3 4 5 6 7) z")
@@ -265,9 +260,6 @@ TRIALS = {
     "source_whose_cells_change": (with_source_at_points, 2, ["s (vectorSemiImplicitSource)", "all or cellZone"]),
     "refinement_of_cyclic_ends_on_two_ranks": (lambda: with_cyclic_ends("x"), 2, ["xlow and xhigh lie on different ranks", "preservePatches"]),
     "refinement_beside_cyclic_ends": (lambda: with_cyclic_ends("y"), 0, ["cells stay on their ranks"]),
-    "thick_liquid_with_one_correction": (lambda: with_corrections(1), 0, ["nu dt/dx2 may be 10 and nCorrectors is 1"]),
-    "thick_liquid_with_two_corrections": (lambda: with_corrections(2), 0, ["not: nCorrectors is 1"]),
-    "thin_liquid_with_one_correction": (lambda: with_corrections(1, nu=2e-2), 0, ["not: nCorrectors is 1"]),
     "source_that_cannot_be_continued": (with_gradient_of_each_cell, 0, ["beware: constant/fvOptions:", "the run cannot be continued"]),
     "no_pimple": (without_pimple, 0, ["fvSolution has no PIMPLE", "nCorrectors 1"]),
     **{name: (lambda name=name: with_number(name), 2 if words else 0, [*words, "not: demvof-check"]) for name, (*_, words) in NUMBERS.items()},
