@@ -254,6 +254,10 @@ double longest_step(const Flow& flow, double window) {
 std::string said_by(const Foam::error& caught) {
   const bool elsewhere = caught.message().empty() && !Foam::FatalIOError.message().empty();
   const Foam::error& error = elsewhere ? Foam::FatalIOError : caught;
+  if (error.message().find("IOstream \"sha1\"") != std::string::npos)
+    return "system/controlDict: functions: this OpenFOAM cannot read function objects, nor can its own "
+           "interFoam "
+           "(Debian 13's package): take them out (docs/versions.md)";
   const auto* input = dynamic_cast<const Foam::IOerror*>(&error);
   if (!input) return error.message();
   return fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), error.message());

@@ -93,7 +93,7 @@ def main():
     noticed = sum(outcome["outcome"] == "noticed" for outcome in outcomes)
     planted = sum(outcome["outcome"] in ("noticed", "missed") for outcome in outcomes)
     print(f"{noticed} of {planted} faults noticed; {len(chosen) - planted} stale")
-    return 0 if planted == len(faults) and noticed >= ENOUGH * planted else 1
+    return 0 if planted == len(chosen) and noticed >= ENOUGH * planted else 1
 
 
 if __name__ == "__main__":
