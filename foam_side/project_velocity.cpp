@@ -26,7 +26,7 @@
 // without which pressure travels by a cell or so per step (Timmermans et al., Int. J. Numer. Methods Fluids
 // 22 (1996) 673). By itself that would not converge: fluid that moves as a whole through a jump of e brings a
 // flux that is not continuous and no stress, a liquid pushes the gas beside it as if that were as thick. Kept
-// so small that it does (until 2026), it left beds to sink 2 to 4 times too fast for hundreds of steps. Few
+// so small that it does, it leaves beds to sink 2 to 4 times too fast for hundreds of steps. Few
 // patterns do so; the best combination of the corrections so far (correction_history.hpp) goes without them.
 // Corrections go on until what the potential brings, whose stress nothing balances yet, is less than
 // open_enough of the velocity.

@@ -133,8 +133,7 @@ std::vector<Key> make_keys() {
                             DEMVOF_AT(particles->ranks))),
       key("particles.unseen_surfaces", list_of(any, text()),
           "Fixes of the script that move surfaces which the fluid does not see: it flows through them, and "
-          "no "
-          "wall of it has to move along.",
+          "no wall of it has to move along.",
           DEMVOF_AT(particles->unseen_surfaces)),
 
       required(key("bulk_grid.lower", list_of(3, number("m")), "Lower corner of the bulk grid.",

@@ -11,7 +11,7 @@ from box_case import BoxCase, Cyclic, Particle
 
 DEMVOF, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
 BOUND = 4e-12     # of the largest value
-MOMENTUM = 5e-14
+MOMENTUM = 3e-14
 PERIOD = 8e-7
 KEPT_TOGETHER = """FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }
 numberOfSubdomains 3; method hierarchical; coeffs { n (3 1 1); order xyz; }
