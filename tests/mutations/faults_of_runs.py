@@ -115,4 +115,6 @@ FAULTS = [
     ("foam_side/quantities.cpp", "x + way[i].x()", "x - way[i].x()", TURBULENT_RANKS),
     ("foam_side/case_sources.cpp", "cells->selectionMode() == Cells::smAll ||", "true ||", REFUSALS),
     ("dem_side/run.cpp", "if (std::find(unseen.begin(), unseen.end(), fix) == unseen.end())", "if (std::find(unseen.begin(), unseen.end(), fix) != unseen.end())", REFUSALS),
+    ("foam_side/extras.cpp", "  refuse_cut_cyclic_refinement(flow);\n", "  if (false) refuse_cut_cyclic_refinement(flow);\n", REFUSALS),
+    ("foam_side/case_numbers.cpp", "if (mesh.solutionDict().found(\"PIMPLE\")) return {};", "if (!mesh.solutionDict().found(\"PIMPLE\")) return {};", REFUSALS),
 ]
