@@ -190,7 +190,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   Report report(dem);
   fallback_results.start(report.count());
   Output output(dem, grid, options.out, start ? std::optional(start->time) : std::nullopt);
-  if (!start) output.write(0, coupling.longest_window(), forces, averaging, {});
+  if (!start) output.write(link.end_time(), coupling.longest_window(), forces, averaging, {});
   WallSeconds seconds;
   link.start(deposited, report.window(forces, averaging, replaced_volume, seconds));
 
@@ -218,7 +218,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
     }
     if (replacement)
       replacement->begin_window(averaging.in(0).sample_records(*fluid.interface), felt.fluid[0], window);
-    if (link.number() == 1) {
+    if (link.is_first()) {
       forces.first_half_step();  // the fluid is known now
       if (plan.schedule == Schedule::concurrent) {
         ParticleMessage expected;

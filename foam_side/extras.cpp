@@ -110,10 +110,10 @@ void refuse_cut_cyclic_refinement(const Flow& flow) {
 
 void require_what_particles_bear(const Flow& flow) {
   if (!flow.scene.particles) return;
-  if (flow.time.startTime().value() != 0)
+  if (flow.time.startTime().value() != 0 && flow.scene.mesh_moves)
     refuse(
-        "controlDict: startTime: with particles, whose windows count from 0, it has to be 0: rename the "
-        "folder");
+        "controlDict: startTime: with particles on a mesh that moves it has to be 0, from which the script's "
+        "surfaces move, too: rename the folder");
   if (extras(flow).rotating.active())
     refuse(
         "constant/MRFProperties: a zone that rotates in its equations only stands still for the particles: "

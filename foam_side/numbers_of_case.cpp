@@ -22,7 +22,7 @@ ResolvedNumbers resolved_numbers(const CaseParameters& parameters, const Flow& f
     numbers.longest_window = static_cast<double>(range.longest) * numbers.dem_time_step;
   } else {
     numbers.window = parameters.coupling.window;
-    numbers.windows = std::lround(parameters.coupling.end_time / numbers.window);
+    numbers.windows = std::lround((parameters.coupling.end_time - flow.time.value()) / numbers.window);
   }
   numbers.dem_steps = std::lround(numbers.window / numbers.dem_time_step);
   numbers.fluid_steps =

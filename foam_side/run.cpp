@@ -94,9 +94,10 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     if (flow.ghost) set_initial_ghost(flow, to_fine.void_fraction());
     const double window =
         own_lengths ? static_cast<double>(range.shortest) * link.plan().steps.length : link.plan().window;
-    const bool other_gravity = norm(set_gravity(flow, flow.gravity.mean(0, window))) > 0;
+    const double begin = link.end_time();
+    const bool other_gravity = norm(set_gravity(flow, flow.gravity.mean(begin, begin + window))) > 0;
     if (other_gravity || pressure_says_nothing(flow)) balance_pressure(flow);
-    record.start(flow, &first.report);
+    record.start(flow, &first.report, link.number());
     write_fields(flow);
   }
   flow.time.setEndTime(end_time +
@@ -315,8 +316,9 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   }
   Scene scene = plan_scene(parameters.scene, facts, parameters.forces, parameters.coupling.phase_interchange);
   if (link)
-    link->send_plan(plan_windows(parameters, scene, particles.at("time_step"),
-                                 start ? RunBefore{start->window, start->time} : RunBefore{}));
+    link->send_plan(plan_windows(
+        parameters, scene, particles.at("time_step"),
+        start ? RunBegin{start->time, true, start->window} : RunBegin{case_time(args).startTime().value()}));
 
   run_stage().set("reading the fluid case");
   Foam::instant from;

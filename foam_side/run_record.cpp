@@ -104,7 +104,7 @@ RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parame
 
 RunRecord::~RunRecord() = default;
 
-void RunRecord::start(const Flow& flow, const ParticleReport* particles) {
+void RunRecord::start(const Flow& flow, const ParticleReport* particles, long windows) {
   const Quantities quantities = fluid_quantities(flow);
   books_.emplace(parameters_.coupling.exchange, parameters_.coupling.schedule,
                  particles ? particles->momentum : Vec3{}, fluid_momentum(flow),
@@ -112,7 +112,9 @@ void RunRecord::start(const Flow& flow, const ParticleReport* particles) {
   initial_potential_ = quantities.at("potential_energy");
   open_history(flow, {});
   write_row(flow, particles);
-  next_row_ = flow.time.value() + parameters_.output.history_interval;
+  begin_ = flow.time.value();
+  next_row_ = begin_ + parameters_.output.history_interval;
+  windows_before_ = windows;
 }
 
 void RunRecord::open_history(const Flow& flow, std::optional<double> continued_from) {
@@ -129,6 +131,7 @@ void RunRecord::go_on(const Flow& flow, const ParticleReport& particles, long wi
                  Books::State{vec3(books.at("pending")), vec3(books.at("unplaced")),
                               books.at("liquid_volume"), vec3(books.at("owed_pressure"))});
   initial_potential_ = books.at("initial_potential");
+  begin_ = books.at("begin");
   next_row_ = books.at("next_row");
   last_row_ = flow.time.value();
   windows_before_ = windows;
@@ -147,6 +150,7 @@ json RunRecord::books() const {
           {"owed_pressure", array(state.owed_pressure)},
           {"liquid_volume", state.liquid_volume},
           {"initial_potential", initial_potential_},
+          {"begin", begin_},
           {"next_row", next_row_}};
 }
 
@@ -244,6 +248,7 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
   }
   if (!writes_) return;
   Progress progress;
+  progress.begin_time = begin_;
   progress.time = time;
   progress.end_time = end_time;
   progress.window = window.number;

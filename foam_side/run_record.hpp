@@ -43,8 +43,9 @@ class RunRecord {
             const nlohmann::json& particles, int rank, int ranks);
   ~RunRecord();
 
-  /// The state before the first step. particles: dem_side's report of it; nullptr without particles.
-  void start(const Flow& flow, const ParticleReport* particles);
+  /// The state before the first step. particles: dem_side's report of it; nullptr without particles. windows:
+  /// those that would have been done by then, where it begins later than at 0.
+  void start(const Flow& flow, const ParticleReport* particles, long windows = 0);
 
   /// The same for a run that goes on. windows: done before; books: of an earlier RunRecord at that time.
   /// Moves what that has written about the whole run to the folder `earlier`.
@@ -90,7 +91,8 @@ class RunRecord {
   std::unique_ptr<History> history_;
   ProgressFile progress_;
   std::optional<Books> books_;
-  long windows_before_ = 0;       // of the run that this one continues
+  long windows_before_ = 0;       // those to the time at which this run begins
+  double begin_ = 0;              // of the run, or of that which it continues, s
   double initial_potential_ = 0;  // J
   double largest_speed_ = 0;      // in the rows of history.csv, m/s
   double last_row_ = -1;          // time of the last row of history.csv, s

@@ -6,9 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <regex>
 #include <stdexcept>
 
@@ -21,20 +25,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A start time other than 0, where controlDict says so: its fields, as they are. True if there are any.
-bool copy_start(const fs::path& original, const fs::path& copy) {
-  std::ifstream stream(original / "system" / "controlDict");
-  const std::string control{std::istreambuf_iterator<char>(stream), {}};
-  static const std::regex start("(?:^|\n)\\s*startTime\\s+([^\\s;]+)\\s*;");
+/// The value of a keyword that stands at the begin of a line; empty where there is none.
+std::string entry(const std::string& dictionary, const std::string& keyword) {
   std::smatch found;
-  if (!std::regex_search(control, found, start) || found[1] == "0") return false;
-  const fs::path fields = original / found[1].str();
-  if (!fs::is_directory(fields)) return false;
-  fs::copy(fields, copy / found[1].str(), fs::copy_options::recursive | fs::copy_options::skip_existing);
-  return true;
+  return std::regex_search(dictionary, found, std::regex("(?:^|\n)\\s*" + keyword + "\\s+([^\\s;]+)\\s*;"))
+             ? found[1].str()
+             : "";
 }
 
-void copy_case(const fs::path& original, const fs::path& copy) {
+std::optional<double> number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' ? std::optional(value) : std::nullopt;
+}
+
+/// The folder of fields that the case starts from, as OpenFOAM finds it by its controlDict; empty where that
+/// is time 0, or there is no such folder.
+std::string later_start(const fs::path& original) {
+  std::ifstream stream(original / "system" / "controlDict");
+  const std::string control{std::istreambuf_iterator<char>(stream), {}};
+  std::map<double, std::string> folders;
+  for (const fs::directory_entry& file : fs::directory_iterator(original))
+    if (const auto time = number(file.path().filename().string()); time && file.is_directory())
+      folders.emplace(*time, file.path().filename().string());
+  if (fs::is_directory(original / "0.orig")) folders.emplace(0, "0");
+  if (folders.empty()) return "";
+  const std::string from = entry(control, "startFrom");
+  auto start =
+      from == "firstTime" ? folders.begin() : std::prev(folders.end());  // OpenFOAM's default: the latest
+  if (from == "startTime") start = folders.find(number(entry(control, "startTime")).value_or(0));
+  return start == folders.end() || start->first == 0 ? "" : start->second;
+}
+
+/// Returned: the folder of the start, where that is later than at 0.
+std::string copy_case(const fs::path& original, const fs::path& copy) {
   const auto options = fs::copy_options::recursive;
   for (const char* part : {"constant", "system"}) {
     if (!fs::is_directory(original / part))
@@ -42,11 +66,15 @@ void copy_case(const fs::path& original, const fs::path& copy) {
     fs::create_directories(copy / part);
     fs::copy(original / part, copy / part, options);
   }
-  const bool starts_later = copy_start(original, copy);
+  const std::string start = later_start(original);
+  if (!start.empty()) fs::copy(original / start, copy / start, options);
   // 0.orig holds the fields as the user wrote them, 0 those that an earlier setFields left.
   for (const char* fields : {"0.orig", "0"})
-    if (fs::is_directory(original / fields)) return fs::copy(original / fields, copy / "0", options);
-  if (starts_later) return;
+    if (fs::is_directory(original / fields)) {
+      fs::copy(original / fields, copy / "0", options);
+      return start;
+    }
+  if (!start.empty()) return start;
   throw InputError(fmt::format("{} is no OpenFOAM case: there is neither 0 nor 0.orig", original.string()));
 }
 
@@ -89,7 +117,10 @@ void prepare_case(const CaseParameters& parameters, const RunFolder& folder, boo
                   const std::function<void(const std::string&)>& say) {
   folder.clear(force);
   std::ofstream(folder.prepare_log()) << "demvof prepare " << parameters.file << std::endl;
-  copy_case(beside_case_file(parameters, parameters.fluid.case_folder), folder.fluid());
+  const std::string start =
+      copy_case(beside_case_file(parameters, parameters.fluid.case_folder), folder.fluid());
+  if (!start.empty())
+    say("preparing the fluid case: it starts at time " + start + ", as its controlDict says");
   const auto run = [&](const std::string& command) {
     run_logged(command, folder.fluid(), folder.prepare_log());
   };

@@ -13,7 +13,8 @@ namespace demvof {
 namespace {
 
 double done_fraction(const Progress& progress) {
-  return progress.end_time > 0 ? std::clamp(progress.time / progress.end_time, 0.0, 1.0) : 0;
+  const double whole = progress.end_time - progress.begin_time;
+  return whole > 0 ? std::clamp((progress.time - progress.begin_time) / whole, 0.0, 1.0) : 0;
 }
 
 int terminal_width() {

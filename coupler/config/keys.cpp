@@ -153,7 +153,7 @@ std::vector<Key> make_keys() {
       required(key(
           "coupling.end_time", above(0, number("s")),
           "Simulated time at the end of the run, a whole number of windows (of DEM time steps where windows "
-          "have their own lengths).",
+          "have their own lengths). It counts from 0, as the fluid's controlDict does.",
           DEMVOF_AT(coupling.end_time))),
       required(key("coupling.window", above(0, number("s")),
                    "Both sides advance by one window between exchanges; a whole number of DEM time steps.",

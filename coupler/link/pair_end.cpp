@@ -100,8 +100,8 @@ void FluidEnd::window(const FluidMessage& fluid, const std::function<void()>& ad
     receive();  // they have done this window
     advance();
   } else {
-    link_.deliver();               // they do this window now, the fluid with what they did in the last
-    if (number() == 1) receive();  // what they expect: nothing was done before
+    link_.deliver();            // they do this window now, the fluid with what they did in the last
+    if (is_first()) receive();  // what they expect: nothing was done before
     advance();
     receive();
   }

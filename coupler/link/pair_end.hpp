@@ -37,8 +37,9 @@ class PairEnd {
     steps_ = 0;
     return true;
   }
-  /// Number of the present window, from 1, the times at its begin and end, and its length, s. Where windows
-  /// have their own lengths the latter two are known from FluidEnd::set_steps and ParticleEnd::fluid on.
+  /// Number of the present window, from 1 (of the first from time 0 on), the times at its begin and end, and
+  /// its length, s. Where windows have their own lengths the latter two are known from FluidEnd::set_steps
+  /// and ParticleEnd::fluid on. Before the first one, end_time is when the run begins.
   long number() const { return number_; }
   double begin_time() const {
     return plan_.own_lengths() ? time_of_step(first_step_) : static_cast<double>(number_ - 1) * plan_.window;
@@ -50,6 +51,8 @@ class PairEnd {
   double window_length() const {
     return plan_.own_lengths() ? static_cast<double>(steps_) * plan_.steps.length : plan_.window;
   }
+  /// Nothing was done before it.
+  bool is_first() const { return !plan_.continues && number_ == plan_.windows_before + 1; }
   /// Its DEM steps, where windows have their own lengths.
   long steps() const { return steps_; }
   /// False once a side has asked for an end before that of the plan.

@@ -20,8 +20,9 @@ struct WindowPlan {
   bool gradients = false;   // BulkFluidGradients follow BulkFluid
   bool mesh_moves = false;  // Openings come first in each window
   bool interface = false;   // BulkInterface follows them, and Droplet BulkParticles
-  long windows = 0;         // of the whole run; 0: not known
-  long windows_before = 0;  // done by the run that this one continues
+  long windows = 0;         // from time 0 to the run's end; 0: not known
+  long windows_before = 0;  // those to the time at which this run begins
+  bool continues = false;   // an earlier run
   double window = 0;        // length of all, s; 0: each has its own, which the fluid says before it begins
   struct Steps {            // then times are counted in DEM steps
     double length = 0;      // of one, s

@@ -38,7 +38,8 @@ void ProgressFile::update(Progress progress, Clock::time_point now) {
   progress.speed = wall_sum_ > 0 ? simulated_sum_ / wall_sum_ : 0;
   progress.remaining_seconds =
       progress.speed > 0 ? std::max(0.0, progress.end_time - progress.time) / progress.speed : 0;
-  const nlohmann::ordered_json content = {{"time", progress.time},
+  const nlohmann::ordered_json content = {{"begin_time", progress.begin_time},
+                                          {"time", progress.time},
                                           {"end_time", progress.end_time},
                                           {"window", progress.window},
                                           {"windows", progress.windows},
@@ -60,6 +61,7 @@ std::optional<Progress> read_progress(const std::filesystem::path& path) {
   if (!content.is_object()) return std::nullopt;
   try {
     Progress progress;
+    progress.begin_time = content.at("begin_time");
     progress.time = content.at("time");
     progress.end_time = content.at("end_time");
     progress.window = content.at("window");

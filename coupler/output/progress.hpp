@@ -9,11 +9,11 @@ namespace demvof {
 
 /// Where a run is: progress.json, written by foam_side and read by `demvof run`.
 struct Progress {
-  double time = 0, end_time = 0;  // simulated, s
-  long window = 0, windows = 0;   // done, in total
-  double speed = 0;               // simulated seconds per wall second, over the last minute or so
-  double remaining_seconds = 0;   // wall
-  double worst_courant = 0;       // over the run so far, -
+  double begin_time = 0, time = 0, end_time = 0;  // simulated, s
+  long window = 0, windows = 0;                   // done, in total
+  double speed = 0;              // simulated seconds per wall second, over the last minute or so
+  double remaining_seconds = 0;  // wall
+  double worst_courant = 0;      // over the run so far, -
   long particles = 0;
   long fine_cells = 0;
 };

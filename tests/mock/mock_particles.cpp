@@ -179,7 +179,7 @@ int play(const Options& options, OwnWorld& world) {
   while (link.next_window()) {
     const FluidMessage fluid = link.fluid();
     CellValues<BulkParticles> next = bed.at(link.end_time());
-    if (plan.schedule == Schedule::concurrent && link.number() == 1) {
+    if (plan.schedule == Schedule::concurrent && link.is_first()) {
       CellValues<BulkParticles> expected = rows;
       bed.expect(fluid.means[0], link.window_length(), expected);
       ParticleMessage message{in_liquid(expected), {}};

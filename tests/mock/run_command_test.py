@@ -29,7 +29,7 @@ echo "$@" >> "$(dirname "$0")/$me.arguments"
 while [ $# -gt 0 ]; do [ "$1" = --out ] && out=$2; shift; done
 results() { sed "s/completed/$1/" "$(dirname "$0")/results.json" > "$out/results.json"; }
 progress() {
-    echo '{"time": '$1', "end_time": 1.0, "window": 1, "windows": 10, "speed": 0.5, "remaining_seconds": 65,
+    echo '{"begin_time": 0, "time": '$1', "end_time": 1.0, "window": 1, "windows": 10, "speed": 0.5, "remaining_seconds": 65,
            "worst_courant": 0.25, "particles": 7, "fine_cells": 8}' > "$out/progress.part"
     mv "$out/progress.part" "$out/progress.json"
 }

@@ -229,7 +229,7 @@ FAULTS = [
     ("foam_side/gravity.cpp", "  flow.gh_reference = reference_potential(flow.g, flow.mesh);", "", SHAKEN),
     ("foam_side/run.cpp", "bridge.follow_gravity(flow.gravity.mean(link.begin_time(), link.end_time()));",
      "bridge.follow_gravity(flow.gravity.at(link.begin_time()));", SHAKEN),
-    ("foam_side/run.cpp", "flow.gravity.mean(0, window)", "flow.gravity.mean(-window, 0)", SHAKEN),
+    ("foam_side/run.cpp", "flow.gravity.mean(begin, begin + window)", "flow.gravity.mean(begin - window, begin)", SHAKEN),
     ("foam_side/bridge.cpp", "if (norm(change) > 0) means_.clear();", "", SHAKEN),
     ("foam_side/advance_clock.cpp", "set_gravity(flow, flow.gravity.mean(now, flow.time.value()));",
      "set_gravity(flow, flow.gravity.at(now));", SHAKEN),

@@ -117,4 +117,9 @@ FAULTS = [
     ("dem_side/run.cpp", "if (std::find(unseen.begin(), unseen.end(), fix) == unseen.end())", "if (std::find(unseen.begin(), unseen.end(), fix) != unseen.end())", REFUSALS),
     ("foam_side/extras.cpp", "  refuse_cut_cyclic_refinement(flow);\n", "  if (false) refuse_cut_cyclic_refinement(flow);\n", REFUSALS),
     ("foam_side/case_numbers.cpp", "if (mesh.solutionDict().found(\"PIMPLE\")) return {};", "if (!mesh.solutionDict().found(\"PIMPLE\")) return {};", REFUSALS),
+    # ---- a start later than 0
+    ("coupler/link/pair_end.hpp", "number_ == plan_.windows_before + 1", "number_ == 1", LATER_START),
+    ("coupler/scene/plan_windows.hpp", "std::lround(begin.time / dem_step)", "0", LATER_START),
+    ("coupler/cli/prepare.cpp", "from == \"firstTime\" ? folders.begin()", "from != \"firstTime\" ? folders.begin()", LATER_START),
+    ("dem_side/run.cpp", "output.write(link.end_time(), coupling", "output.write(0, coupling", LATER_START),
 ]
