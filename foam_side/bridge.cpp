@@ -99,12 +99,16 @@ void Bridge::collect_pressure() {
   if (!flow_.porosity) return;
   const Foam::vectorField gradient = pressure_gradient(flow_, tells_jump_);
   const auto left = particles_to_fine_.left_to_particles(gradient);
-  for (std::size_t k = 0; k < left.size(); ++k) {
+  for (std::size_t k = 0; k < left.by_fluid.size(); ++k) {
     if (owes_pressure_)
-      owed_pressure_[k].collect(left[k], flow_.time.deltaTValue());
+      owed_pressure_[k].collect(left.by_fluid[k], flow_.time.deltaTValue());
     else
-      for (const OwedPressure::Left& cell : left[k].values) unclaimed_ += cell.impulse;
+      for (const OwedPressure::Left& cell : left.by_fluid[k].values) unclaimed_ += cell.impulse;
   }
+  if (owes_pressure_)
+    smeared_weight_ += left.smeared_weight;
+  else
+    unclaimed_ -= left.smeared_weight;
   if (!flow_.scene.surface_tension || tells_jump_) return;
   const Foam::vectorField whole = pressure_gradient(flow_, true);
   const double dt = flow_.time.deltaTValue();
@@ -124,8 +128,9 @@ Bridge::PressureImpulses Bridge::pressure_impulses() const {
     all.held_back.told += fluid.held_back().told;
   }
   all.tension = tension_;
+  all.smeared_weight = smeared_weight_;
   all.seen += unclaimed_;
-  for (Vec3* part : {&all.seen, &all.owed, &all.returned, &all.tension})
+  for (Vec3* part : {&all.seen, &all.owed, &all.returned, &all.tension, &all.smeared_weight})
     *part = to_vec3(Foam::returnReduce(to_foam(*part), Foam::sumOp<vector>()));
   Foam::reduce(all.turnover, Foam::sumOp<double>());
   Foam::reduce(all.held_back.cells, Foam::sumOp<long>());
@@ -203,7 +208,7 @@ std::vector<CellValues<BulkFluid>> Bridge::bulk_fluids() {
     surface_.look();
     means_ = fluid_to_bulk_.means();
   }
-  tension_ = unclaimed_ = {};
+  tension_ = unclaimed_ = smeared_weight_ = {};
   std::vector<CellValues<BulkFluid>> fluids;
   int k = 0;
   for (FluidToBulk::Means& means : std::exchange(means_, {})) {

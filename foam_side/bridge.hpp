@@ -72,9 +72,10 @@ class Bridge {
   Vec3 kept_left_over() const;
   /// Of the pressure, over all ranks, N s: told to the particles in the window (to those that feel none: left
   /// to them), owed to them at its end, and gone back to the fluid in it; surface tension that acted on their
-  /// share of the fine cells in place of them.
+  /// share of the fine cells in place of them; and what they got beyond what the fluid left to them, the
+  /// weight of what they displace in fine cells that hold both fluids.
   struct PressureImpulses {
-    Vec3 seen, owed, returned, tension;
+    Vec3 seen, owed, returned, tension, smeared_weight;
     double turnover = 0;  // of what went back, summed by its size in each bulk cell
     OwedPressure::HeldBack held_back;
   };
@@ -103,10 +104,10 @@ class Bridge {
   bool of_order_two_;   // in the window
   bool accelerates_;    // a force needs Du/Dt
   MPI_Comm world_;
-  double window_;    // s
-  double pace_ = 1;  // at which owed pressure is returned (owed_pressure.hpp), -
-  Vec3 tension_;     // in this window, this rank, N s
-  Vec3 unclaimed_;   // what the pressure left to particles that feel none, likewise
+  double window_;                  // s
+  double pace_ = 1;                // at which owed pressure is returned (owed_pressure.hpp), -
+  Vec3 tension_, smeared_weight_;  // in this window, this rank, N s
+  Vec3 unclaimed_;                 // what the pressure left to particles that feel none, likewise
   BulkCut cut_;
   OpeningsToBulk openings_;
   SurfaceToBulk surface_;

@@ -260,5 +260,6 @@ tmp<scalarField> dynamic_viscosity(const Flow& flow, int fluid);
 
 /// Density of the fluid between the particles, kg/m3: rho, less what stands for particles in it.
 double density_between_particles(const Flow& flow, label cell);
+double density_of(const Flow& flow, int fluid);  // 0: liquid, 1: gas, kg/m3
 
 }  // namespace demvof

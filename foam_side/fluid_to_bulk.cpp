@@ -100,7 +100,7 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   }
   std::vector<Means> all;
   for (int k = 0; k < surface_.fluids(); ++k) {
-    const double rho_k = (k == 0 ? flow_.mixture.rho1() : flow_.mixture.rho2()).value();
+    const double rho_k = density_of(flow_, k);
     const tmp<scalarField> viscosity_k =
         surface_.fluids() > 1 ? dynamic_viscosity(flow_, k) : tmp<scalarField>(viscosity());
     std::vector<FluidSums> sums(cut_.cells().cells().size());

@@ -55,6 +55,10 @@ void add_ghost_density(Flow& flow) {
   flow.rho == heavy* flow.mixture.rho1() + (1.0 - heavy) * flow.mixture.rho2();
 }
 
+double density_of(const Flow& flow, int fluid) {
+  return (fluid == 0 ? flow.mixture.rho1() : flow.mixture.rho2()).value();
+}
+
 double density_between_particles(const Flow& flow, label cell) {
   if (!flow.ghost) return flow.rho[cell];
   const double alpha = flow.alpha[cell];

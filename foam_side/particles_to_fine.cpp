@@ -208,8 +208,7 @@ bool ParticlesToFine::hands_back() const {
 }
 
 // -(1 - eps) V grad p dt of a fine cell goes to its subcells as their bulk cells have solid of each fluid.
-std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
-    const Foam::vectorField& gradient) const {
+ParticlesToFine::LeftToParticles ParticlesToFine::left_to_particles(const Foam::vectorField& gradient) const {
   const std::vector<Subcell>& subcells = cut_.remap().subcells();
   const int fluids = static_cast<int>(state_.size());
   std::vector<std::vector<double>> part(state_.size());  // of each subcell
@@ -225,7 +224,7 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
     }
   }
   const double dt = flow_.time.deltaTValue();
-  std::vector<CellValues<OwedPressure::Left>> left;
+  LeftToParticles left;
   for (int k = 0; k < fluids; ++k) {
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
     for (std::size_t i = 0; i < subcells.size(); ++i) {
@@ -233,10 +232,14 @@ std::vector<CellValues<OwedPressure::Left>> ParticlesToFine::left_to_particles(
       if (!(sum[cell] > 0)) continue;
       const double exposed =
           part[k][i] / sum[cell] * dt * (1 - flow_.porosity->eps[cell]) * flow_.mesh.V()[cell];
-      here[subcells[i].slot].impulse -= exposed * to_vec3(gradient[cell]);
+      Vec3 others;  // of the weight of the other fluid in the fine cell
+      if (surface_.is_cut(subcells[i].slot))
+        others = (density_of(flow_, k) - density_between_particles(flow_, cell)) * to_vec3(flow_.g.value());
+      here[subcells[i].slot].impulse -= exposed * (to_vec3(gradient[cell]) + others);
+      left.smeared_weight -= exposed * others;
       here[subcells[i].slot].exposed += exposed;
     }
-    CellValues<OwedPressure::Left>& cells = left.emplace_back(cut_.cells().sum_to_owners(here));
+    CellValues<OwedPressure::Left>& cells = left.by_fluid.emplace_back(cut_.cells().sum_to_owners(here));
     for (std::size_t i = 0; i < cells.cells.size(); ++i) {
       const double* then = find(state_[k].before, cells.cells[i]);
       const BulkParticles* now = find(state_[k].particles, cells.cells[i]);

@@ -77,8 +77,14 @@ class ParticlesToFine {
   /// The fluid got an impulse (N s) from the particles in another way, which they are owed like the rest.
   void count_given(const Vec3& impulse) { collected_sum_ += impulse; }
   /// What the pressure of the step just done left to the particles of each bulk cell, by fluid: cells owned
-  /// by this rank. gradient: grad p, per fine cell.
-  std::vector<CellValues<OwedPressure::Left>> left_to_particles(const Foam::vectorField& gradient) const;
+  /// by this rank. Where the surface cuts a bulk cell, with the weight of that fluid in place of the
+  /// mixture's of its fine cells, as it is told (fluid_to_bulk.cpp); smeared_weight: what that adds, of this
+  /// rank, N s. gradient: grad p, per fine cell.
+  struct LeftToParticles {
+    std::vector<CellValues<OwedPressure::Left>> by_fluid;
+    Vec3 smeared_weight;
+  };
+  LeftToParticles left_to_particles(const Foam::vectorField& gradient) const;
 
   /// The window's impulses are complete.
   void end_window();

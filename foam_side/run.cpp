@@ -172,6 +172,7 @@ RunStatus run_pair(Flow& flow, const ProgramOptions& options, const CaseParamete
     done.fluid.returned_turnover = pressure.turnover;
     done.held_back = pressure.held_back;
     done.fluid.outside.surface_tension += pressure.tension;
+    done.fluid.outside.smeared_weight = pressure.smeared_weight;
     if (replaces) {
       done.replacement = replacement;
       done.fluid.replaced_liquid = replacement.liquid();

@@ -32,6 +32,7 @@ struct OutsideImpulses {
   Vec3 held;               // what the fluid gave to particles that no force moves went to what holds them
   Vec3 stress;             // viscous stress and capillary force on particles
   Vec3 constant;           // the case file's force on particles
+  Vec3 smeared_weight;     // of fluid that particles displace where fine cells hold both fluids
   Vec3 pressure_lag;  // pressure on the particles less what the fluid gave them with the gradient it told
 
   OutsideImpulses& operator+=(const OutsideImpulses& other) {
@@ -45,10 +46,10 @@ struct OutsideImpulses {
   }
 
   /// Names as in results.json.
-  static const std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 13> parts;
+  static const std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 14> parts;
 };
 
-inline constexpr std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 13> OutsideImpulses::parts = {
+inline constexpr std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 14> OutsideImpulses::parts = {
     {{"fluid_weight", &OutsideImpulses::fluid_weight},
      {"particle_weight", &OutsideImpulses::particle_weight},
      {"boundary_pressure", &OutsideImpulses::boundary_pressure},
@@ -61,6 +62,7 @@ inline constexpr std::array<std::pair<const char*, Vec3 OutsideImpulses::*>, 13>
      {"held", &OutsideImpulses::held},
      {"stress", &OutsideImpulses::stress},
      {"constant", &OutsideImpulses::constant},
+     {"smeared_weight", &OutsideImpulses::smeared_weight},
      {"pressure_lag", &OutsideImpulses::pressure_lag}}};
 
 class MomentumBooks {

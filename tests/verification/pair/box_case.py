@@ -103,6 +103,7 @@ class BoxCase:
     gas: tuple = (1, 1e-5)
     sigma: float = 0
     level: float = None        # liquid below this z; None: liquid everywhere
+    level_in_cells: bool = False  # a fine cell that the level cuts holds its part of liquid; else all or nothing, as setFields does
     velocity: tuple = (0, 0, 0)  # of the fluid at the start
     particles: list = dataclasses.field(default_factory=list)
     contacts: bool = False     # walls for the particles (wall/gran at Wall and Slip sides)
@@ -139,7 +140,7 @@ class BoxCase:
             self._write_particles()
         for name, text in self.extra_files.items():
             (self.folder / name).write_text(text)
-        prepare = self.prepare or ["blockMesh"] + (["setFields"] if self.level is not None else [])
+        prepare = self.prepare or ["blockMesh"] + (["setFields"] if self.level is not None and not self.level_in_cells else [])
         content = {"fluid": {"case": "fluid", "prepare": prepare},
                    "coupling": {"end_time": self.end_time, "window": self.window, **self.coupling},
                    "output": {"interval": self.output_interval, "history_interval": self.history_interval}}
@@ -176,12 +177,13 @@ class BoxCase:
 
         def field(name, dimensions, value):
             boundary = "\n".join(f"    {p} {{ type {entry[name]}; }}" for p, entry in patches.items())
-            return f"dimensions {dimensions};\ninternalField uniform {value};\nboundaryField\n{{\n{boundary}\n}}\n"
+            inside = value if str(value).startswith("nonuniform") else f"uniform {value}"
+            return f"dimensions {dimensions};\ninternalField {inside};\nboundaryField\n{{\n{boundary}\n}}\n"
 
         write("0.orig/U", "volVectorField", field("U", "[0 1 -1 0 0 0 0]", vector(self.velocity)))
         write("0.orig/p_rgh", "volScalarField", field("p_rgh", "[1 -1 -2 0 0 0 0]", 0))
         write("0.orig/alpha.water", "volScalarField",
-              field("alpha.water", "[0 0 0 0 0 0 0]", 1 if self.level is None else 0))
+              field("alpha.water", "[0 0 0 0 0 0 0]", self._layers() if self.level_in_cells else 1 if self.level is None else 0))
         write("constant/g", "uniformDimensionedVectorField",
               f"dimensions [0 1 -2 0 0 0 0];\nvalue {vector(self.gravity)};\n")
         (rho1, nu1), (rho2, nu2) = self.liquid, self.gas
@@ -212,11 +214,19 @@ class BoxCase:
               f"    \"U.*\" {{ {self.velocity_solver} }}\n}}\n"
               "PIMPLE { momentumPredictor no; nOuterCorrectors 1; nCorrectors 3; nNonOrthogonalCorrectors 0; "
               f"pRefCell 0; pRefValue 0; {self.pimple} }}\n")
-        if self.level is not None:
+        if self.level is not None and not self.level_in_cells:
             low, high = [c - 1 for c in self.lower], [c + 1 for c in self.upper[:2]] + [self.level]
             write("system/setFieldsDict", "dictionary",
                   "defaultFieldValues ( volScalarFieldValue alpha.water 0 );\nregions ( boxToCell "
                   f"{{ box {vector(low)} {vector(high)}; fieldValues ( volScalarFieldValue alpha.water 1 ); }} );\n")
+
+    def _layers(self):
+        """alpha.water of a level that lies anywhere in a fine cell."""
+        height = (self.upper[2] - self.lower[2]) / self.fine[2]
+        layers = (min(max((self.level - self.lower[2]) / height - k, 0), 1) for k in range(self.fine[2]))
+        each = self.fine[0] * self.fine[1]
+        return (f"nonuniform List<scalar> {each * self.fine[2]} "
+                f"({' '.join(f'{alpha:.17g}' for alpha in layers for _ in range(each))})")
 
     @staticmethod
     def _watch(side, name):
