@@ -122,4 +122,7 @@ FAULTS = [
     ("coupler/scene/plan_windows.hpp", "std::lround(begin.time / dem_step)", "0", LATER_START),
     ("coupler/cli/prepare.cpp", "from == \"firstTime\" ? folders.begin()", "from != \"firstTime\" ? folders.begin()", LATER_START),
     ("dem_side/run.cpp", "output.write(link.end_time(), coupling", "output.write(0, coupling", LATER_START),
+    # ---- the surface inside fine cells
+    ("foam_side/particles_to_fine.cpp", "if (surface_.is_cut(subcells[i].slot))", "if (false)", FLOATING),
+    ("foam_side/bridge.cpp", "smeared_weight_ += left.smeared_weight;", "", FLOATING),
 ]
