@@ -95,8 +95,10 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   tmp<Foam::tensorField> velocity_slope, gradient_slope;
   if (cut_.has_profiles()) {
     velocity_slope = slopes(flow_.U);
+    // Without the weight, which jumps at a surface and has no slope beside it.
+    const Foam::vectorField driving(gradient - flow_.rho.primitiveField() * flow_.g.value());
     gradient_slope = slopes(
-        with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, gradient));
+        with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, driving));
   }
   std::vector<Means> all;
   for (int k = 0; k < surface_.fluids(); ++k) {

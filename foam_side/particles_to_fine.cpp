@@ -207,22 +207,15 @@ bool ParticlesToFine::hands_back() const {
   return hands_back_left_over(coupling_.exchange);
 }
 
-// -(1 - eps) V grad p dt of a fine cell goes to its subcells as their bulk cells have solid of each fluid.
+// -(1 - eps) V grad p dt of a fine cell goes to its subcells as they have solid of each fluid: the sum over a
+// bulk cell is that of its own solid, however fine cells lie in bulk cells.
 ParticlesToFine::LeftToParticles ParticlesToFine::left_to_particles(const Foam::vectorField& gradient) const {
   const std::vector<Subcell>& subcells = cut_.remap().subcells();
   const int fluids = static_cast<int>(state_.size());
-  std::vector<std::vector<double>> part(state_.size());  // of each subcell
+  const std::vector<std::vector<double>> part = solid_in_subcells(solid_volumes(done())).by_fluid;
   std::vector<double> sum(static_cast<std::size_t>(flow_.mesh.nCells()), 0.0);
-  for (int k = 0; k < fluids; ++k) {
-    const std::vector<double> before = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
-    const std::vector<double> volume = fluids > 1 ? surface_.volumes(k) : cut_.remap().bulk_volume();
-    for (const Subcell& subcell : subcells) {
-      const double solid = before[subcell.slot] + touched_[k][subcell.slot].solid_volume;
-      const double own = surface_.share(k, subcell) * subcell.volume;
-      part[k].push_back(own > 0 ? own / volume[subcell.slot] * solid : 0);
-      sum[subcell.fine] += part[k].back();
-    }
-  }
+  for (int k = 0; k < fluids; ++k)
+    for (std::size_t i = 0; i < subcells.size(); ++i) sum[subcells[i].fine] += part[k][i];
   const double dt = flow_.time.deltaTValue();
   LeftToParticles left;
   for (int k = 0; k < fluids; ++k) {

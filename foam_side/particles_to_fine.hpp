@@ -112,10 +112,17 @@ class ParticlesToFine {
   std::vector<Vec3> own_shape() const;
   void distribute();
   std::vector<double> solid_fraction(const std::vector<std::vector<double>>& volumes);
-  std::vector<double> profile_in_main_fluid(const std::vector<double>& whole,
-                                            const std::vector<SolidInFluids>& inside,
-                                            const std::vector<double>& liquid,
-                                            const std::vector<double>& gas) const;
+  /// Solid of each subcell, m3: what solid_fraction is made of where the mapping is none that interpolates.
+  struct SolidInSubcells {
+    std::vector<std::vector<double>> by_fluid;
+    double moved = 0;  // to the other fluid (SolidInFluids), this rank
+  };
+  SolidInSubcells solid_in_subcells(const std::vector<std::vector<double>>& volumes) const;
+  void keep_in_main_fluid(std::vector<double>& rise, const std::vector<double>& mean,
+                          const std::vector<SolidInFluids>& inside, const std::vector<double>& liquid,
+                          const std::vector<double>& gas) const;
+  /// Solid volume of each touched cell, by fluid, m3. part: of the window, -.
+  std::vector<std::vector<double>> solid_volumes(double part) const;
 
   Flow& flow_;
   const BulkCut& cut_;

@@ -5,6 +5,7 @@
 // fluid has the profile of coupling.mapping.to_fine, and one goes over into the other.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,11 @@ namespace {
 constexpr double smallest_void_fraction = 0.05;
 constexpr double round_off = 1e-13;  // of a solid fraction
 
+/// The fluid that most of a cut bulk cell is full of.
+int main_fluid(const std::vector<double>& liquid, const std::vector<double>& gas, int slot) {
+  return liquid[slot] >= gas[slot] ? 0 : 1;
+}
+
 }  // namespace
 
 CellValues<double> solid_volume(const CellValues<BulkParticles>& particles) {
@@ -30,41 +36,73 @@ CellValues<double> solid_volume(const CellValues<BulkParticles>& particles) {
   return volume;
 }
 
-/// Per subcell of cut cells, -: the slope that the bulk cell would have without the surface, in the fluid
-/// that most of it is full of and about the middle of that one, so that each fluid keeps its solid; less and
-/// less of it towards a cell half full. A surface that comes or goes then takes the profile away, or brings
-/// it, as slowly as it moves: at once, the fluid would have to move within a window.
-std::vector<double> ParticlesToFine::profile_in_main_fluid(const std::vector<double>& whole,
-                                                           const std::vector<SolidInFluids>& inside,
-                                                           const std::vector<double>& liquid,
-                                                           const std::vector<double>& gas) const {
+/// Per subcell of cut cells, -: of `rise`, the slope that the bulk cell would have without the surface, what
+/// is in the fluid that most of it is full of, about the middle of that one, so that each fluid keeps its
+/// solid; less and less of it towards a cell half full. A surface that comes or goes then takes the profile
+/// away, or brings it, as slowly as it moves: at once, the fluid would have to move within a window.
+/// Elsewhere rise stays.
+void ParticlesToFine::keep_in_main_fluid(std::vector<double>& rise, const std::vector<double>& mean,
+                                         const std::vector<SolidInFluids>& inside,
+                                         const std::vector<double>& liquid,
+                                         const std::vector<double>& gas) const {
   const std::vector<Subcell>& subcells = cut_.remap().subcells();
-  const std::vector<double>& room = cut_.remap().bulk_volume();
-  std::vector<double> mean(room.size(), 0.0), middle(room.size(), 0.0);
-  for (std::size_t slot = 0; slot < room.size(); ++slot)
-    if (room[slot] > 0) mean[slot] = whole[slot] / room[slot];
-  std::vector<double> rise = cut_.remap().rises(subcells, mean, 1, Remap::Slope::limited);
-  const auto main_fluid = [&](int slot) { return liquid[slot] >= gas[slot] ? 0 : 1; };
+  std::vector<double> middle(mean.size(), 0.0);
   const auto amount = [&](const Subcell& subcell) {
-    return surface_.share(main_fluid(subcell.slot), subcell) * subcell.volume;
+    return surface_.share(main_fluid(liquid, gas, subcell.slot), subcell) * subcell.volume;
   };
   for (std::size_t i = 0; i < subcells.size(); ++i)
     if (surface_.is_cut(subcells[i].slot)) middle[subcells[i].slot] += amount(subcells[i]) * rise[i];
   middle = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(middle), 0.0);
   for (std::size_t i = 0; i < subcells.size(); ++i) {
-    const int slot = subcells[i].slot, k = main_fluid(slot);
-    if (!surface_.is_cut(slot) || mean[slot] == 0) {
-      rise[i] = 0;
-      continue;
-    }
+    const int slot = subcells[i].slot, k = main_fluid(liquid, gas, slot);
+    if (!surface_.is_cut(slot)) continue;
     const double most = std::max(liquid[slot], gas[slot]),
                  solid = k == 0 ? inside[slot].liquid : inside[slot].gas;
     const double here = middle[slot] / most;
-    const double part =
-        (2 * most / room[slot] - 1) * std::min(1.0, solid / (mean[slot] + std::max(here, 0.0)));
+    const double part = mean[slot] == 0 ? 0
+                                        : (2 * most / (liquid[slot] + gas[slot]) - 1) *
+                                              std::min(1.0, solid / (mean[slot] + std::max(here, 0.0)));
     rise[i] = part * surface_.share(k, subcells[i]) * (rise[i] - here);
   }
-  return rise;
+}
+
+/// volumes: solid volume by fluid and touched cell, m3.
+ParticlesToFine::SolidInSubcells ParticlesToFine::solid_in_subcells(
+    const std::vector<std::vector<double>>& volumes) const {
+  const std::vector<Subcell>& subcells = cut_.remap().subcells();
+  const std::vector<double>& room = cut_.remap().bulk_volume();
+  const bool two = volumes.size() == 2;
+  std::vector<double> mean(room.size(), 0.0);
+  for (std::size_t slot = 0; slot < room.size(); ++slot)
+    if (room[slot] > 0) mean[slot] = (volumes[0][slot] + (two ? volumes[1][slot] : 0)) / room[slot];
+  std::vector<double> rise = cut_.remap().rises(subcells, mean, 1, Remap::Slope::limited);
+  std::vector<SolidInFluids> inside(two ? room.size() : 0);
+  std::vector<double> liquid, gas;
+  if (two) {
+    liquid = surface_.volumes(0), gas = surface_.volumes(1);
+    for (std::size_t slot = 0; slot < inside.size(); ++slot)
+      if (surface_.is_cut(static_cast<int>(slot)) && mean[slot] > 0)
+        inside[slot] = solid_in_fluids(volumes[0][slot], volumes[1][slot], liquid[slot], gas[slot],
+                                       coupling_.averaging.maximum_solid_fraction);
+    keep_in_main_fluid(rise, mean, inside, liquid, gas);
+  }
+  SolidInSubcells solid;
+  solid.by_fluid.assign(volumes.size(), std::vector<double>(subcells.size(), 0.0));
+  for (std::size_t i = 0; i < subcells.size(); ++i) {
+    const Subcell& subcell = subcells[i];
+    const int slot = subcell.slot;
+    if (two && surface_.is_cut(slot)) {
+      const std::array<double, 2> in = {inside[slot].liquid, inside[slot].gas};
+      for (int k = 0; k < 2; ++k) solid.by_fluid[k][i] = subcell.volume * surface_.share(k, subcell) * in[k];
+      solid.by_fluid[main_fluid(liquid, gas, slot)][i] += subcell.volume * rise[i];
+      if (mean[slot] > 0) solid.moved += inside[slot].moved * subcell.volume / room[slot];
+    } else if (mean[slot] > 0) {
+      for (std::size_t k = 0; k < volumes.size(); ++k)
+        solid.by_fluid[k][i] =
+            subcell.volume * (mean[slot] + rise[i]) * volumes[k][slot] / (mean[slot] * room[slot]);
+    }
+  }
+  return solid;
 }
 
 /// volumes: solid volume by fluid and touched cell, m3.
@@ -72,7 +110,6 @@ std::vector<double> ParticlesToFine::solid_fraction(const std::vector<std::vecto
   if (volumes.size() == 1) return cut_.remap().to_fine(volumes[0], 1);
   surface_.look();
   const std::vector<double>& room = cut_.remap().bulk_volume();
-  const std::vector<double> liquid = surface_.volumes(0), gas = surface_.volumes(1);
   std::vector<double> whole(room.size());
   std::vector<char> flat(room.size());
   for (std::size_t slot = 0; slot < whole.size(); ++slot) {
@@ -80,31 +117,20 @@ std::vector<double> ParticlesToFine::solid_fraction(const std::vector<std::vecto
     flat[slot] = surface_.is_cut(static_cast<int>(slot));
   }
   std::vector<double> fraction = cut_.remap().to_fine(whole, 1, flat);
-
-  // In cut cells: solid fraction in liquid and gas less the mean of both, and the profile.
-  std::vector<SolidInFluids> inside(room.size());
-  for (std::size_t slot = 0; slot < inside.size(); ++slot) {
-    if (!flat[slot] || whole[slot] == 0) continue;
-    inside[slot] = solid_in_fluids(volumes[0][slot], volumes[1][slot], liquid[slot], gas[slot],
-                                   coupling_.averaging.maximum_solid_fraction);
-  }
-  const std::vector<double> profile = profile_in_main_fluid(whole, inside, liquid, gas);
+  const SolidInSubcells solid = solid_in_subcells(volumes);  // in cut cells in place of their mean
   const std::vector<Subcell>& subcells = cut_.remap().subcells();
   for (std::size_t i = 0; i < subcells.size(); ++i) {
     const Subcell& subcell = subcells[i];
-    const SolidInFluids& solid = inside[subcell.slot];
     if (!flat[subcell.slot] || whole[subcell.slot] == 0) continue;
-    const double share = subcell.volume / flow_.mesh.V()[subcell.fine];
-    fraction[subcell.fine] +=
-        share * (surface_.share(0, subcell) * solid.liquid + surface_.share(1, subcell) * solid.gas -
-                 whole[subcell.slot] / room[subcell.slot] + profile[i]);
-    spread_.moved_volume += solid.moved * subcell.volume / room[subcell.slot];
+    fraction[subcell.fine] += (solid.by_fluid[0][i] + solid.by_fluid[1][i] -
+                               subcell.volume * whole[subcell.slot] / room[subcell.slot]) /
+                              flow_.mesh.V()[subcell.fine];
   }
+  spread_.moved_volume += solid.moved;
   return fraction;
 }
 
-scalarField ParticlesToFine::void_fraction(double part) {
-  spread_ = {};
+std::vector<std::vector<double>> ParticlesToFine::solid_volumes(double part) const {
   std::vector<std::vector<double>> volumes;
   for (std::size_t k = 0; k < state_.size(); ++k) {
     std::vector<double> here = cut_.cells().fetch_from_owners(solid_volume(state_[k].particles), 0.0);
@@ -115,7 +141,12 @@ scalarField ParticlesToFine::void_fraction(double part) {
     }
     volumes.push_back(std::move(here));
   }
-  const std::vector<double> solid = solid_fraction(volumes);
+  return volumes;
+}
+
+scalarField ParticlesToFine::void_fraction(double part) {
+  spread_ = {};
+  const std::vector<double> solid = solid_fraction(solid_volumes(part));
   scalarField eps(flow_.mesh.nCells());
   forAll(eps, cell) {
     spread_.negative_cells += solid[cell] < -round_off;

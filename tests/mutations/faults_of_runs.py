@@ -124,5 +124,8 @@ FAULTS = [
     ("dem_side/run.cpp", "output.write(link.end_time(), coupling", "output.write(0, coupling", LATER_START),
     # ---- the surface inside fine cells
     ("foam_side/particles_to_fine.cpp", "if (surface_.is_cut(subcells[i].slot))", "if (false)", FLOATING),
-    ("foam_side/bridge.cpp", "smeared_weight_ += left.smeared_weight;", "", FLOATING),
+    ("foam_side/bridge.cpp", "smeared_weight_ += left.smeared_weight;", "smeared_weight_ += 0 * left.smeared_weight;", FLOATING),
+    ("foam_side/fluid_to_bulk.cpp", "gradient - flow_.rho.primitiveField() * flow_.g.value()", "gradient", AT_REST),
+    ("foam_side/solid_fraction.cpp", "subcell.volume * (mean[slot] + rise[i]) * volumes", "subcell.volume * mean[slot] * volumes", AT_REST),
+    ("foam_side/solid_fraction.cpp", "solid.by_fluid[main_fluid(liquid, gas, slot)][i] += subcell.volume * rise[i];", "", AT_REST),
 ]
