@@ -45,6 +45,7 @@ double Replacement::leave_out_replaced(int i, BulkParticles& contribution) const
   if (dem_.particle_rows(rows_name)[i][0] == 0) return 0;
   const double volume = contribution.solid_volume;
   contribution.solid_volume = contribution.pressure_mobility = contribution.following_volume = 0;
+  contribution.solid_flux = {};
   return volume;
 }
 

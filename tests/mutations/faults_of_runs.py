@@ -128,4 +128,5 @@ FAULTS = [
     ("foam_side/fluid_to_bulk.cpp", "gradient - flow_.rho.primitiveField() * flow_.g.value()", "gradient", AT_REST),
     ("foam_side/solid_fraction.cpp", "subcell.volume * (mean[slot] + rise[i]) * volumes", "subcell.volume * mean[slot] * volumes", AT_REST),
     ("foam_side/solid_fraction.cpp", "solid.by_fluid[main_fluid(liquid, gas, slot)][i] += subcell.volume * rise[i];", "", AT_REST),
+    ("dem_side/replacement.cpp", "  contribution.solid_flux = {};\n", "", DROP),
 ]

@@ -3,7 +3,7 @@
 """One sphere enters water as a drop on the fine mesh: replacement.py DEMVOF [--long | --refined]
 
 Paper, section 7.2, second variant: 4 mm, 2000 kg/m3, at 0.5 m/s just above a surface at rest; bulk cells of 5 mm.
-Short: a box of 0.02 x 0.02 x 0.06 m on a mesh of 4 mm that refines itself to 1 mm at the surface and around the sphere,
+Short: beside another bead; a box of 0.02 x 0.02 x 0.06 m on a mesh of 4 mm that refines itself to 1 mm at the surface and around the sphere,
 until the sphere has its place back.
 Long: the same in cells of 1 mm everywhere; the paper's box on 108k and 500k cells, crater at 0.03 s, and porous and volume_adding on 108k beside it.
 Refined: the same box on 62 500 cells of 2 mm that refine themselves to the 1 mm of the 500k, against its record.
@@ -83,6 +83,22 @@ def check_books(record, run, name, back):
     record.note(f"{name}: fastest fluid", max(run.history["max_speed"]), "m/s")
 
 
+def beside_another(record, demvof):
+    """A bead falls in and another one rises below: what the first displaces no more moves no fluid of the second's. All of the fluid's energy comes from
+    the beads', and that from their weights."""
+    diameter = 3.5e-3
+    case = BoxCase(scratch("replacement") / "beside", (0.02, 0.02, 0.04), (12, 12, 24), (3, 3, 6), 0.06, window=1e-3, level=0.02, dem_step=5e-5,
+                   sides={side: Open() if side == "z+" else Wall() for side in SIDES}, tolerance=1e-9,
+                   particles=[Particle((0.0103, 0.0097, z), diameter, density) for z, density in ((0.012, 500), (0.028, 2500))],
+                   coupling={"phase_interchange": "replacement"}, forces=[{"drag": "schiller_naumann"}, "pressure_gradient", {"added_mass": 0.5}])
+    run = case.run(demvof)
+    record.at_least("a bead that rises beside: spheres that became liquid", run.results["replacement"]["became_liquid"], 1)
+    record.at_most("a bead that rises beside: most energy of the fluid / most of the beads",
+                   max(run.history["kinetic_energy"]) / max(run.history["particle_kinetic_energy"]), 0.28)
+    record.at_most("a bead that rises beside: fastest fluid", max(run.history["max_speed"]), 0.96, "m/s")
+    record.at_most("a bead that rises beside: momentum exchange", run.results["conservation"]["exchange"], 5e-13)
+
+
 def short(record, demvof, uniform):
     box, level, fine = (0.02, 0.02, 0.06), 0.031, (20, 20, 60)
     if uniform:
@@ -155,6 +171,7 @@ def main():
                     "at the start, of alpha = 0.5 as seen from above on the axis through the impact (mean of the four "
                     "columns of cells around it) at 0.03 s; the paper's claim (7.2) is that 108k and 500k cells agree.",
                     f"tests/Alltest {'--verification ' if is_long else ''}-- -R pair.replacement{'_long' if is_long else ''}")
+    beside_another(record, sys.argv[1])
     short(record, sys.argv[1], uniform=is_long)
     if is_long:
         long(record, sys.argv[1])
