@@ -70,13 +70,11 @@ void add_ring_by_points(volScalarField& mark) {
 
 }  // namespace
 
-void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters) {
-  const std::filesystem::path file = fluid_case / "constant" / "dynamicMeshDict";
-  std::string first_line;
-  if (std::ifstream there(file); there && std::getline(there, first_line) && first_line != written_here)
-    throw InputError(
-        fmt::format("fluid.refinement: the fluid case says in constant/dynamicMeshDict how its mesh changes; "
-                    "remove that file or the section fluid.refinement"));
+namespace {
+
+/// more: further entries.
+void write_dictionary(const std::filesystem::path& file, const RefinementParameters& parameters,
+                      const std::string& more = "") {
   std::ofstream out(file);
   // OpenFOAM takes the mean of the marks around a point, of the rank's own cells, and refines the cells of
   // points above the lower level: with 1 those that are marked, since the last ring is all around points
@@ -89,9 +87,60 @@ void write_mesh_dictionary(const std::filesystem::path& fluid_case, const Refine
              "lowerRefineLevel 0.99;\nupperRefineLevel 10;\nunrefineLevel 0.5;\nnBufferLayers 1;\n"
              "maxRefinement {};\nmaxCells {};\ndumpLevel true;\n",
              parameters.levels, parameters.max_cells)
+      << more
       << "correctFluxes ( (phi none) (phi_0 none) (rhoPhi none) (nHatf none) (ghf none) (Uf none)\n"
          "    (alphaPhi0.water none) );\n";
   if (!out.flush()) throw InputError(fmt::format("fluid.refinement: {} cannot be written", file.string()));
+}
+
+}  // namespace
+
+void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters) {
+  const std::filesystem::path file = fluid_case / "constant" / "dynamicMeshDict";
+  std::string first_line;
+  if (std::ifstream there(file); there && std::getline(there, first_line) && first_line != written_here)
+    throw InputError(
+        fmt::format("fluid.refinement: the fluid case says in constant/dynamicMeshDict how its mesh changes; "
+                    "remove that file or the section fluid.refinement"));
+  write_dictionary(file, parameters);
+}
+
+std::optional<RefinementParameters> take_refinement_of_case(const Foam::Time& time) {
+  const Foam::IOdictionary given(Foam::IOobject("dynamicMeshDict", time.constant(), time,
+                                                Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE,
+                                                false));
+  const Foam::word type = given.lookupOrDefault<Foam::word>("dynamicFvMesh", "staticFvMesh");
+  if (type != "dynamicRefineFvMesh") return std::nullopt;
+  const Foam::IOdictionary fluids(Foam::IOobject("transportProperties", time.constant(), time,
+                                                 Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false));
+  const Foam::word liquid = Foam::wordList(fluids.lookup("phases"))[0];
+  const Foam::dictionary& entries = given.optionalSubDict(type + "Coeffs");
+  const Foam::word field(entries.lookup("field"));
+  const bool taken_before = entries.lookupOrDefault("takenFromCase", false);
+  if (field != "alpha." + liquid && !taken_before)
+    throw InputError(fmt::format(
+        "constant/dynamicMeshDict: dynamicRefineFvMesh refines by {}: with particles a mesh is fine where "
+        "alpha.{} says where the surface is, or as a section fluid.refinement of the case file says: remove "
+        "the file, and write that section",
+        field, liquid));
+  RefinementParameters parameters;
+  parameters.levels = Foam::readLabel(entries.lookup("maxRefinement"));
+  parameters.max_cells = Foam::readLabel(entries.lookup("maxCells"));
+  parameters.buffer = std::max(1, static_cast<int>(Foam::readLabel(entries.lookup("nBufferLayers"))));
+  if (taken_before) parameters.buffer = Foam::readLabel(entries.lookup("rings"));
+  Foam::returnReduce(true, Foam::andOp<bool>());  // all ranks have read it
+  if (Foam::Pstream::master())
+    write_dictionary(std::string(time.rootPath()) + "/" + time.globalCaseName() + "/constant/dynamicMeshDict",
+                     parameters, fmt::format("takenFromCase true;\nrings {};\n", parameters.buffer));
+  Foam::returnReduce(true, Foam::andOp<bool>());
+  return parameters;
+}
+
+std::string refined_as_of_case(const RefinementParameters& parameters) {
+  return fmt::format(
+      "constant/dynamicMeshDict: the mesh refines itself as with fluid.refinement: {{levels: {}, buffer: {}, "
+      "max_cells: {}}}, where {} < alpha < {} (docs/howto_your_own_case.md, What the fluid case must be)",
+      parameters.levels, parameters.buffer, parameters.max_cells, pure, 1 - pure);
 }
 
 Refinement::Refinement(const Foam::fvMesh& mesh, const RefinementParameters& given)

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "coupler/config/parameters.hpp"
 #include "foam_side/openfoam.hpp"
@@ -13,6 +15,15 @@ struct Flow;
 /// Writes the dynamicMeshDict that makes OpenFOAM refine the mesh by the marks below. Before the case is
 /// opened, on one rank. Throws InputError when the case has such a file of its own.
 void write_mesh_dictionary(const std::filesystem::path& fluid_case, const RefinementParameters& parameters);
+
+/// A case whose own dynamicMeshDict refines the mesh at the surface (dynamicRefineFvMesh) gets the same as
+/// one with fluid.refinement: the levels, rings (nBufferLayers) and most cells are taken from that file, and
+/// in the run's copy of the case the one above takes its place. nullopt where the mesh does not refine
+/// itself. Before the mesh is read; collective. Throws InputError where it refines by another field than the
+/// liquid's fraction, or where the run that is continued had a section fluid.refinement.
+std::optional<RefinementParameters> take_refinement_of_case(const Foam::Time& time);
+/// What to say then.
+std::string refined_as_of_case(const RefinementParameters& parameters);
 
 /// Where the mesh has to be fine, and when it is looked at again.
 ///

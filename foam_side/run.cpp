@@ -19,7 +19,6 @@
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/run_lock.hpp"
 #include "coupler/scene/plan_windows.hpp"
-#include "dynamicRefineFvMesh.H"
 #include "foam_side/balance_mesh.hpp"
 #include "foam_side/bridge.hpp"
 #include "foam_side/case_numbers.hpp"
@@ -245,13 +244,6 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.rayleigh_time = particles.value("rayleigh_time", 0.0);
 }
 
-/// Of the fluid, s; without windows that of the start. window: the longest.
-double longest_step(const Flow& flow, double window) {
-  const StepLimits limits(flow.time.controlDict());
-  if (window <= 0) return flow.time.deltaTValue();
-  return std::min(window, limits.adjust ? limits.step : flow.time.deltaTValue());
-}
-
 /// Of an unknown interpolation scheme OpenFOAM says the reason to one stream, and exits through the other.
 std::string said_by(const Foam::error& caught) {
   const bool elsewhere = caught.message().empty() && !Foam::FatalIOError.message().empty();
@@ -289,7 +281,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     if (world.rank() == 0) keep_earlier(options.out, "fluid.log");
   }
   send_output_to(options.out / "fluid.log", world.rank());
-  const std::optional<RefinementParameters>& refinement = parameters.fluid.refinement;
+  std::optional<RefinementParameters> refinement = parameters.fluid.refinement;
   if (refinement && start && !fs::exists(options.out / "fluid" / "constant" / "dynamicMeshDict"))
     throw InputError("--continue: fluid.refinement was not given in the run; remove it, or start a new run");
   if (refinement && world.rank() == 0) write_mesh_dictionary(options.out / "fluid", *refinement);
@@ -299,6 +291,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   install_signal_handlers();  // OpenFOAM has set its own
   require_numbers_that_can_be(case_time(args), paired);
   SceneFacts facts = fluid_facts(args);
+  const bool refined_by_case = paired && !refinement;
+  if (refined_by_case) refinement = take_refinement_of_case(case_time(args));
 
   std::optional<FluidEnd> link;
   std::optional<BulkGrid> grid;
@@ -334,18 +328,24 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   if (start && !forget.empty()) throw InputError("--continue: " + forget + "; start a new run");
   for (const std::string& said :
        {slope_without_effect(flow->mesh, flow->gravity),
-        gravity_that_jumps(case_gravity(args), flow->gravity), slow_pressure_solver(*flow),
-        pimple_by_default(flow->mesh), paired ? forget : "", paired ? unknown_sources(*flow) : ""})
+        gravity_that_jumps(case_gravity(args), flow->gravity, case_time(args).startTime().value()),
+        slow_pressure_solver(*flow), pimple_by_default(flow->mesh), paired ? forget : "",
+        paired ? unknown_sources(*flow) : ""})
     if (!said.empty()) scene.advice.push_back(said);
   if (refinement && world.size() > 1 && cells_stay(flow->mesh))
     scene.advice.emplace_back(
         "fluid.refinement: the mesh has cyclic patches, and cells stay on their ranks, however many of them "
         "there are (max_imbalance)");
-  if (paired && !refinement && Foam::isA<Foam::dynamicRefineFvMesh>(flow->mesh))
-    throw InputError(
-        "constant/dynamicMeshDict: dynamicRefineFvMesh: with particles the case file says where the mesh is "
-        "fine: remove "
-        "the file, and write a section fluid.refinement");
+  if (refinement && refined_by_case) {
+    if (scene.interchange == PhaseInterchange::volume_adding ||
+        scene.interchange == PhaseInterchange::replacement)
+      throw InputError(
+          "constant/dynamicMeshDict: dynamicRefineFvMesh: coupling.phase_interchange: volume_adding needs a "
+          "mesh that stays as it is, replacement one that is fine wherever a particle may become liquid: "
+          "remove "
+          "the file, and for the latter write a section fluid.refinement with particles: true");
+    scene.advice.push_back(refined_as_of_case(*refinement));
+  }
   if (paired) {
     require_mesh_fits(*grid, flow->mesh, start && scene.mesh_moves);
     if (const std::string said = walls_inside_bulk_cells(flow->mesh, *grid); !said.empty())

@@ -38,13 +38,13 @@ void add_vector(Quantities& quantities, const std::string& name, const Vec3& vec
 }
 
 /// Names that this run can record, in the order of the table.
-std::vector<std::string> recorded_names(const CaseParameters& parameters, bool particles) {
+std::vector<std::string> recorded_names(const CaseParameters& parameters, bool particles, bool refines) {
   if (!parameters.output.history.empty()) return parameters.output.history;
   std::vector<std::string> names;
   for (const Quantity& quantity : known_quantities) {
     const std::string name(quantity.name);
     if (name.rfind("window", 0) == 0 && !parameters.coupling.adaptive_window) continue;
-    if (name == "fine_cells" && !parameters.fluid.refinement) continue;
+    if (name == "fine_cells" && !refines) continue;
     const bool of_particles = name == "particles" || name.rfind("window", 0) == 0 || name == "solid_front" ||
                               name == "active_bulk_cells" || name == "smallest_relaxation" ||
                               name.rfind("particle_", 0) == 0 || name.rfind("pending_", 0) == 0;
@@ -120,7 +120,8 @@ void RunRecord::start(const Flow& flow, const ParticleReport* particles, long wi
 void RunRecord::open_history(const Flow& flow, std::optional<double> continued_from) {
   if (!writes_) return;
   std::vector<HistoryColumn> columns;
-  for (const std::string& name : recorded_names(parameters_, flow.scene.particles))
+  for (const std::string& name :
+       recorded_names(parameters_, flow.scene.particles, flow.refinement != nullptr))
     columns.push_back({name, std::string(find_quantity(name)->unit)});
   history_ = std::make_unique<History>(out_ / "history.csv", columns, continued_from);
 }

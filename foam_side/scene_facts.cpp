@@ -122,9 +122,9 @@ Vec3 case_gravity(const Foam::argList& args) {
   return to_vec3(g.value());
 }
 
-std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity) {
+std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity, double start) {
   constexpr double typed_twice = 1e-6;  // relative
-  const Vec3 first = gravity.at(0);
+  const Vec3 first = gravity.at(start);
   if (norm(first - of_case) <= typed_twice * norm(of_case)) return {};
   return fmt::format(
       "gravity.table begins with [{}, {}, {}] m/s2, constant/g and fix gravity have [{}, {}, {}]: the table "

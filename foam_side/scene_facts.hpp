@@ -15,7 +15,7 @@ const Foam::Time& case_time(const Foam::argList& args);
 
 /// Gravity of the case, m/s2.
 Vec3 case_gravity(const Foam::argList& args);
-/// What to say when the run does not begin with that; empty when it does.
-std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity);
+/// What to say when the run does not begin with that; empty when it does. start: of a new run, s.
+std::string gravity_that_jumps(const Vec3& of_case, const GravityTable& gravity, double start);
 
 }  // namespace demvof

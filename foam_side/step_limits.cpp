@@ -5,6 +5,12 @@
 
 namespace demvof {
 
+double longest_step(const Flow& flow, double window) {
+  const StepLimits limits(flow.time.controlDict());
+  if (window <= 0) return flow.time.deltaTValue();
+  return std::min(window, limits.adjust ? limits.step : flow.time.deltaTValue());
+}
+
 CourantRates courant_rates(const Flow& flow) {
   const tmp<volScalarField> throughput = fvc::surfaceSum(Foam::mag(flow.phi));
   scalarField rate(throughput().primitiveField() / flow.mesh.V().field());

@@ -41,6 +41,9 @@ struct StepLimits {
   }
 };
 
+/// Of the fluid, s; without windows that of the start. window: the longest.
+double longest_step(const Flow& flow, double window);
+
 /// s; 0 without surface tension. Collective.
 double capillary_step(const Flow& flow, double surface_tension);
 

@@ -35,7 +35,7 @@ internalField uniform (0 0 0);
 boundaryField { ".*" { type calculated; } }
 """
 REFINES = HEADER.format("dynamicMeshDict") + """dynamicFvMesh dynamicRefineFvMesh;
-refineInterval 1; field alpha.water; lowerRefineLevel 0.1; upperRefineLevel 0.9; unrefineLevel 10; nBufferLayers 1;
+refineInterval 1; field magU; lowerRefineLevel 0.1; upperRefineLevel 0.9; unrefineLevel 10; nBufferLayers 1;
 maxRefinement 1; maxCells 10000; correctFluxes ((phi none)); dumpLevel false;
 """
 ROTATING = HEADER.format("MRFProperties") + "zone { cellZone z; active yes; origin (0 0 0); axis (0 0 1); omega 1; }\n"
@@ -242,7 +242,7 @@ TRIALS = {
     "flow_that_is_given": (lambda: box("given", pimple="nCorrectors -1; nNonOrthogonalCorrectors -1; frozenFlow yes;").write(), 2,
                            ["a flow that is given takes no momentum from particles"]),
     "mesh_that_refines_itself": (lambda: box("refines", extra_files={"fluid/constant/dynamicMeshDict": REFINES}).write(), 2,
-                                 ["dynamicRefineFvMesh", "fluid.refinement"]),
+                                 ["dynamicRefineFvMesh refines by magU", "fluid.refinement"]),
     "zone_that_rotates": (with_zone, 2, ["MRFProperties", "remove the file"]),
     "time_scheme": (with_time_scheme, 2, ["ddtSchemes", "with particles Euler only"]),
     "slope_along_a_periodic_direction": (with_slope, 0, ["along x, where the mesh is periodic", "meanVelocityForce"]),
