@@ -139,7 +139,7 @@ std::optional<RefinementParameters> take_refinement_of_case(const Foam::Time& ti
 std::string refined_as_of_case(const RefinementParameters& parameters) {
   return fmt::format(
       "constant/dynamicMeshDict: the mesh refines itself as with fluid.refinement: {{levels: {}, buffer: {}, "
-      "max_cells: {}}}, where {} < alpha < {} (docs/howto_your_own_case.md, What the fluid case must be)",
+      "max_cells: {}}}, where {} < alpha < {} (docs/howto_your_own_case.md)",
       parameters.levels, parameters.buffer, parameters.max_cells, pure, 1 - pure);
 }
 
