@@ -80,6 +80,7 @@ Dem::Dem(MPI_Comm world, const fs::path& script, const fs::path& log, const fs::
     : world_(world), script_(script), log_(log), restart_file_(restart_file) {
   if (!fs::is_regular_file(script))
     throw InputError(fmt::format("particles.script: there is no file {}", script.string()));
+  refuse_before_it_is_read(script);
   fs::current_path(script.parent_path());
 
   // A region prints to the screen even when there is none (a crash in 3.8): it gets a file instead.

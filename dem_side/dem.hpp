@@ -18,6 +18,7 @@
 #include "dem_side/contact_times.hpp"
 #include "dem_side/near_surfaces.hpp"
 #include "dem_side/particle_arrays.hpp"
+#include "dem_side/plane_walls.hpp"
 #include "dem_side/random_streams.hpp"
 
 namespace LAMMPS_NS {
@@ -160,6 +161,7 @@ class Dem {
   void reach_further(double radii);
   NearPairs near_pairs() const;
   std::vector<NearWall> near_walls(double radii) const;
+  PlaneWalls plane_walls() const;
 
   /// Calls add_forces in every DEM step, after all other forces and torques are known: to add to
   /// particles.force and particles.torque, and in the last step of a run to note by local particle what it

@@ -84,7 +84,9 @@ void reach_further(LAMMPS& liggghts, double radii) {
 }
 
 NearPairs near_pairs(const LAMMPS& liggghts) {
-  const NeighList& list = *liggghts.force->pair->list;
+  const Pair* pair = liggghts.force->pair;
+  if (!pair || !pair->list) return {};
+  const NeighList& list = *pair->list;
   return {list.inum, list.ilist, list.numneigh, list.firstneigh};
 }
 

@@ -34,6 +34,7 @@ struct NearWall {
 /// of its radii. Throws InputError when there is no list of pairs, or one that is not seen from both sides.
 void reach_further(LAMMPS_NS::LAMMPS& liggghts, double radii);
 
+/// None where the script has no pair_style that lists them.
 NearPairs near_pairs(const LAMMPS_NS::LAMMPS& liggghts);
 
 /// Local particles nearer than so many of their radii to granular walls (fix wall/gran): planes, cylinders,

@@ -7,12 +7,14 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <vector>
 
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/sphere.hpp"
+#include "lmptype.h"
 
 namespace demvof {
 namespace {
@@ -71,10 +73,36 @@ Found first_impossible(const ParticleArrays& all) {
   return first;
 }
 
-}  // namespace
+/// Of two spheres, of the smaller one's radius: contacts of so much are no contacts, and throw them apart.
+constexpr double deepest = 0.5;
 
-void require_possible_particles(const ParticleArrays& particles, MPI_Comm world, const std::string& script) {
-  Found mine = first_impossible(particles);
+Found first_deep_overlap(const ParticleArrays& all, const NearPairs& pairs,
+                         const std::function<bool(int)>& held) {
+  Found first;
+  for (int row = 0; row < pairs.rows; ++row) {
+    const int i = pairs.particle[row];
+    for (int n = 0; n < pairs.partners[i]; ++n) {
+      const int j = pairs.partner[i][n] & NEIGHMASK;
+      const double overlap =
+          all.radius[i] + all.radius[j] - norm(vec3(all.position[i]) - vec3(all.position[j]));
+      if (overlap <= deepest * std::min(all.radius[i], all.radius[j])) continue;
+      const bool ghost = j >= all.count;
+      if (!ghost && all.in_clump(i) && all.in_clump(j) && all.of_clump[i].clump == all.of_clump[j].clump)
+        continue;
+      if (!ghost && held(i) && held(j)) continue;  // a shape made of spheres
+      const auto [low, high] = std::minmax(all.id[i], all.id[j]);
+      if (low == high) continue;
+      first.take(
+          low, fmt::format("particles {} and {} overlap by {:.3g} m, {:.2g} of the smaller one's radius: "
+                           "their contact would throw them apart. Smaller spheres ('set ... diameter'), or "
+                           "more room between them; a shape made of spheres: fix multisphere, or fix freeze",
+                           low, high, overlap, overlap / std::min(all.radius[i], all.radius[j])));
+    }
+  }
+  return first;
+}
+
+void refuse(Found mine, MPI_Comm world, const std::string& script) {
   struct {
     int id, rank;
   } first = {mine.id, 0};
@@ -86,6 +114,18 @@ void require_possible_particles(const ParticleArrays& particles, MPI_Comm world,
   mine.text.resize(static_cast<std::size_t>(length));
   check_mpi(MPI_Bcast(mine.text.data(), length, MPI_CHAR, first.rank, world), "MPI_Bcast");
   throw InputError(script + ": " + mine.text);
+}
+
+}  // namespace
+
+void require_possible_particles(const ParticleArrays& particles, MPI_Comm world, const std::string& script) {
+  refuse(first_impossible(particles), world, script);
+}
+
+void require_room_for_each(const Dem& dem, const std::string& script) {
+  const ParticleArrays particles = dem.particles();
+  const auto held = [&](int i) { return dem.held(particles.mask[i]); };
+  refuse(first_deep_overlap(particles, dem.near_pairs(), held), dem.world(), script);
 }
 
 }  // namespace demvof

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "dem_side/particle_arrays.hpp"
+#include "dem_side/dem.hpp"
 
 namespace demvof {
 
@@ -13,5 +13,9 @@ namespace demvof {
 /// beyond reason, or it is where another one is. It names the script and the particle with the lowest id.
 /// Collective.
 void require_possible_particles(const ParticleArrays& particles, MPI_Comm world, const std::string& script);
+
+/// The same of two spheres that overlap by more than half a radius of the smaller one, as LIGGGHTS's list of
+/// neighbours has them: after Dem::set_up. Spheres of one clump may, and those that the script holds.
+void require_room_for_each(const Dem& dem, const std::string& script);
 
 }  // namespace demvof

@@ -23,6 +23,7 @@
 #include "coupler/transfer/averaging.hpp"
 #include "dem_side/dem.hpp"
 #include "dem_side/fallback_results.hpp"
+#include "dem_side/first_look.hpp"
 #include "dem_side/forces.hpp"
 #include "dem_side/output.hpp"
 #include "dem_side/particle_grid.hpp"
@@ -85,6 +86,7 @@ std::string facts(const Dem& dem, const FluidForces& forces, const Averaging& av
                         {"largest_solid_fraction", averaging.largest_solid_fraction()},
                         {"closures", closures},
                         {"momentum", {momentum.x, momentum.y, momentum.z}},
+                        {"first_look", first_look(dem)},
                         {"ranks", world.size()}}
       .dump();
 }
@@ -134,6 +136,7 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
                       last->steps);
   }
   dem.set_up();
+  if (!start) require_room_for_each(dem, script.string());
   if (last) dem.go_on_from(last->random);
   const BulkGrid grid = particle_grid(*parameters.bulk_grid, dem);
   const AveragingParameters averaged = with_bandwidth(coupling.averaging, dem.census().max_diameter);

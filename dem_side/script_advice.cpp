@@ -13,6 +13,8 @@
 #include <set>
 #include <vector>
 
+#include "coupler/base/errors.hpp"
+
 namespace demvof {
 namespace {
 
@@ -113,6 +115,15 @@ std::string atom_style_instead(const std::string& style) {
 }
 
 }  // namespace
+
+void refuse_before_it_is_read(const std::filesystem::path& script) {
+  for (const Line& line : commands(script))
+    if (line.words.size() > 1 && line.words[0] == "dimension" && line.words[1] != "3")
+      throw InputError(fmt::format(
+          "{}: particles are spheres in space, and LIGGGHTS's spheres know nothing else; remove the line. A "
+          "slice: walls, or one row of periodic cells",
+          quoted(script, line)));
+}
 
 bool fix_has_word(const std::filesystem::path& script, const std::string& fix, const std::string& word) {
   for (const Line& line : commands(script))

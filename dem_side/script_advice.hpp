@@ -10,6 +10,9 @@ namespace demvof {
 /// far as the error tells; empty when it says enough by itself.
 std::string advice_on(const std::string& error, const std::filesystem::path& script);
 
+/// Throws InputError for a command on which LIGGGHTS would crash.
+void refuse_before_it_is_read(const std::filesystem::path& script);
+
 /// True when the script's line that makes the fix of this name has the word: what LIGGGHTS does not tell.
 bool fix_has_word(const std::filesystem::path& script, const std::string& fix, const std::string& word);
 

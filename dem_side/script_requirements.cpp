@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "atom.h"
@@ -11,6 +12,7 @@
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/sphere.hpp"
+#include "dem_side/moved_once.hpp"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -50,6 +52,10 @@ std::string_view objection(std::string_view style) {
   if (style == "momentum")
     return "it takes momentum from the particles that the fluid has given them; remove the line, or unfix it "
            "before the script ends";
+  if (style == "deform" || style == "box/relax" || starts_with(style, "npt") || starts_with(style, "nph") ||
+      starts_with(style, "press/"))
+    return "it changes the particles' box, and bulk grid and fluid stay as they are; remove the line, or "
+           "unfix it before the script ends. Walls that move: fix move/mesh";
   if (style == "multisphere/nointegration")
     return "its clumps do not move by the forces on them; use fix multisphere";
   if (starts_with(style, "nve/") && style != "nve/sphere" && style != "nve/noforce")
@@ -90,27 +96,6 @@ std::string_view objection_beside_clumps(LAMMPS_NS::Fix& fix, const LAMMPS_NS::F
   if (style == "insert/stream")
     return "clumps on their way out of its face are not followed; use insert/rate/region or insert/pack";
   return {};
-}
-
-// Beside clumps: fix multisphere moves those alone.
-std::string spheres_without_integrator(LAMMPS_NS::LAMMPS& liggghts, const LAMMPS_NS::FixMultisphere& clumps) {
-  int known = 0;  // group bits
-  for (int i = 0; i < liggghts.modify->nfix; ++i) {
-    const LAMMPS_NS::Fix& fix = *liggghts.modify->fix[i];
-    const std::string_view style = fix.style;
-    if (style == "nve/sphere" || style == "nve" || holds(style)) known |= fix.groupbit;
-  }
-  const LAMMPS_NS::Atom& atom = *liggghts.atom;
-  int count = 0, first = 0;
-  for (int i = 0; i < atom.nlocal; ++i)
-    if (clumps.belongs_to(i) < 0 && !(atom.mask[i] & known) && count++ == 0) first = atom.tag[i];
-  if (count == 0) return {};
-  return fmt::format(
-      "nothing moves {} that {} to no clump (id {}{}): fix multisphere moves clumps alone. Add 'fix "
-      "move_them "
-      "GROUP nve/sphere' with a group of them; to hold them, 'fix hold GROUP freeze'",
-      count == 1 ? "a sphere" : fmt::format("{} spheres", count), count == 1 ? "belongs" : "belong", first,
-      count == 1 ? "" : " and others");
 }
 
 // A sphere that 'create_atoms' makes is 1 m large until the script gives it a diameter; with such a one in a
@@ -155,7 +140,10 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
         fmt::format("atom_style is '{}'; the particles must be spheres with a radius and a mass: "
                     "atom_style granular",
                     atom.atom_style));
-  if (!liggghts.update->timestep_set) mistake("no timestep; add e.g. 'timestep 1e-5' (s)");
+  if (!liggghts.update->timestep_set)
+    mistake("no timestep; add e.g. 'timestep 1e-5' (s)");
+  else if (!(liggghts.update->dt > 0 && std::isfinite(liggghts.update->dt)))
+    mistake(fmt::format("timestep: {:g} is not allowed; give a number above 0 (s)", liggghts.update->dt));
   if (liggghts.domain->triclinic) mistake("the box is skewed (triclinic); it must be rectangular");
 
   if (const std::string text = larger_than_their_box(liggghts); !text.empty()) mistake(text);
@@ -178,8 +166,7 @@ void require_coupled_scene(LAMMPS_NS::LAMMPS& liggghts, const std::string& scrip
         fmt::format("fix {} multisphere: LIGGGHTS follows clumps on one rank only, and loses them on {}: "
                     "particles.ranks: 1 in the case file",
                     clumps->id, liggghts.comm->nprocs));
-  if (clumps)
-    if (const std::string text = spheres_without_integrator(liggghts, *clumps); !text.empty()) mistake(text);
+  for (const std::string& text : not_moved_once(liggghts, clumps)) mistake(text);
   if (integrators == 0) mistake("nothing moves the particles; add 'fix move_them all nve/sphere'");
   if (gravities > 1) mistake(fmt::format("{} fixes of style gravity; there must be at most one", gravities));
   if (!mistakes.empty()) throw InputError(mistakes);

@@ -143,8 +143,13 @@ void require_numbers_that_can_be(const Foam::Time& time, bool particles) {
   const Foam::IOdictionary transport(Foam::IOobject("transportProperties", time.constant(), time,
                                                     Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE,
                                                     false));
+  const Foam::wordList phases(transport.lookup("phases"));
+  if (phases.size() != 2)
+    throw InputError(fmt::format(
+        "constant/transportProperties:{}: phases: {} of them; give two, the liquid first",
+        transport.lookupEntry("phases", Foam::keyType::LITERAL).startLineNumber(), phases.size()));
   require_loops(solution, particles);
-  require_surface(solution, "alpha." + Foam::wordList(transport.lookup("phases"))[0]);
+  require_surface(solution, "alpha." + phases[0]);
   Entries("system/fvSolution", solution.subOrEmptyDict("relaxationFactors"), "relaxationFactors: ")
       .require_all({0, 1, true});
 }

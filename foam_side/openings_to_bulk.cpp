@@ -136,12 +136,12 @@ void require_inside(const Foam::fvMesh& mesh, const BulkGrid& grid) {
   const MeshBox box = mesh_box(mesh);
   for (int axis = 0; axis < 3; ++axis) {
     if (grid.periodic()[axis]) continue;  // what leaves at one end is at the other
-    const double margin = 1e-6 * (box.upper[axis] - box.lower[axis]);
+    const double margin = std::max(1e-6 * (box.upper[axis] - box.lower[axis]), 1e-4 * grid.spacing()[axis]);
     if (box.lower[axis] < grid.lower()[axis] - margin || box.upper[axis] > grid.upper()[axis] + margin)
       throw RunError(
-          fmt::format("the mesh has moved to {:.4g} to {:.4g} m along {}, out of the bulk grid, which goes "
-                      "from {:.4g} to "
-                      "{:.4g} m: give bulk_grid a box that holds the mesh wherever it goes",
+          fmt::format("the mesh has moved to {:.9g} to {:.9g} m along {}, out of the bulk grid, which goes "
+                      "from {:.9g} to "
+                      "{:.9g} m: give bulk_grid a box that holds the mesh wherever it goes",
                       box.lower[axis], box.upper[axis], "xyz"[axis], grid.lower()[axis], grid.upper()[axis]));
   }
 }

@@ -25,6 +25,7 @@
 #include "foam_side/case_sources.hpp"
 #include "foam_side/divided_cells.hpp"
 #include "foam_side/extras.hpp"
+#include "foam_side/first_look.hpp"
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/mesh_ends.hpp"
@@ -33,6 +34,7 @@
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
 #include "foam_side/run_record.hpp"
+#include "foam_side/said_by.hpp"
 #include "foam_side/scene_facts.hpp"
 #include "foam_side/step_fluid.hpp"
 #include "foam_side/step_limits.hpp"
@@ -244,28 +246,15 @@ void add_particle_facts(SceneFacts& facts, const json& particles) {
   facts.rayleigh_time = particles.value("rayleigh_time", 0.0);
 }
 
-/// Of an unknown interpolation scheme OpenFOAM says the reason to one stream, and exits through the other.
-std::string said_by(const Foam::error& caught) {
-  const bool elsewhere = caught.message().empty() && !Foam::FatalIOError.message().empty();
-  const Foam::error& error = elsewhere ? Foam::FatalIOError : caught;
-  if (error.message().find("IOstream \"sha1\"") != std::string::npos)
-    return "system/controlDict: functions: this OpenFOAM cannot read function objects, nor can its own "
-           "interFoam "
-           "(Debian 13's package): take them out (docs/versions.md)";
-  const auto* input = dynamic_cast<const Foam::IOerror*>(&error);
-  if (!input) return error.message();
-  return fmt::format("{}, line {}: {}", input->ioFileName(), input->ioStartLineNumber(), error.message());
-}
-
 /// Shows what only a step asks for: entries of fvSchemes, function objects, walls that go along with the
 /// mesh. step: s.
-void try_step(Flow& flow, double step) try {
+void try_step(Flow& flow, double step, const fs::path& folder) try {
   begin_window(flow, flow.time.value() + step);
   step_fluid(flow, nullptr);
 } catch (const RunError& error) {
   throw InputError(std::string("the first step fails: ") + error.what());
 } catch (const Foam::error& error) {
-  throw InputError(said_by(error));
+  throw InputError(said_by(error, folder));
 }
 
 int run_case(const ProgramOptions& options, const OwnWorld& world) {
@@ -355,6 +344,9 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
           fmt::format("The fluid does not see what fix {} moves: it flows through there, and is moved by "
                       "particles alone (docs/warnings.md, Unseen surfaces)",
                       fmt::join(unseen, ", ")));
+    if (!start)
+      for (const std::string& said : first_look(parameters, *flow, *grid, particles))
+        scene.advice.push_back(said);
     require_same_motion(*flow, particles.value("moved_surfaces", std::vector<std::string>()));
   }
   if (flow->porosity && facts.inserts_particles && flow->p_rgh.needReference())
@@ -366,7 +358,7 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
     require_mesh_resolves_particles(flow->mesh, particles.at("min_diameter"));
   flow->scene.advice = scene.advice;
   if (options.check) {
-    try_step(*flow, step);
+    try_step(*flow, step, options.out / "fluid");
     const ResolvedNumbers numbers =
         resolved_numbers(parameters, *flow, facts.surface_tension, grid, particles);
     if (world.rank() == 0) {
@@ -392,8 +384,9 @@ int run_fluid(const ProgramOptions& options, const OwnWorld& world) {
   try {
     return run_case(options, world);
   } catch (const Foam::error& error) {
-    if (run_stage().time() > 0) throw RunError(said_by(error));
-    throw InputError(said_by(error));
+    const std::string said = said_by(error, options.out / "fluid");
+    if (run_stage().time() > 0) throw RunError(said);
+    throw InputError(said);
   }
 }
 

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "coupler/base/errors.hpp"
+#include "foam_side/alpha_file.hpp"
 #include "foam_side/fine_mesh.hpp"
-#include "localIOdictionary.H"
 #include "turbulenceModel.H"
 
 namespace demvof {
@@ -20,43 +22,6 @@ using Foam::word;
 
 Foam::dictionary read_dictionary(const Foam::Time& time, const Foam::fileName& folder, const word& name) {
   return Foam::IOdictionary(IOobject(name, folder, time, IOobject::MUST_READ, IOobject::NO_WRITE, false));
-}
-
-/// True when every value that an entry like "uniform 1" or "nonuniform List ..." states is the same
-/// as reference; the first value seen becomes the reference.
-bool only_value(const Foam::entry& entry, std::optional<scalar>& reference) {
-  if (!entry.isStream()) return true;
-  Foam::ITstream& stream = entry.stream();
-  stream.rewind();
-  const Foam::token first(stream);
-  scalar value = 0;
-  if (first.isWord() && first.wordToken() == "uniform")
-    stream >> value;
-  else if (first.isNumber())
-    value = first.number();
-  else
-    return !(first.isWord() && first.wordToken() == "nonuniform");
-  if (!reference) reference = value;
-  return value == *reference;
-}
-
-/// The fraction of the first phase everywhere; none when both fluids are present, at the start or at a
-/// boundary where one can come in.
-std::optional<scalar> fraction_everywhere(const Foam::Time& time, const word& phase) {
-  const Foam::localIOdictionary alpha(
-      IOobject("alpha." + phase, time.timeName(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false),
-      "volScalarField");
-  std::optional<scalar> value;
-  bool one = only_value(alpha.lookupEntry("internalField", Foam::keyType::LITERAL), value);
-  for (const Foam::entry& patch : alpha.subDict("boundaryField"))
-    if (patch.isDict() && patch.dict().lookupOrDefault<word>("type", "") != "zeroGradient")
-      for (const char* key : {"inletValue", "value"})
-        if (const Foam::entry* entry = patch.dict().findEntry(key, Foam::keyType::LITERAL))
-          one = only_value(*entry, value) && one;
-  // A rank with one fluid alone may have the other one's neighbour.
-  const scalar low = Foam::returnReduce(value.value_or(1), Foam::minOp<scalar>());
-  const scalar high = Foam::returnReduce(value.value_or(0), Foam::maxOp<scalar>());
-  return Foam::returnReduce(one, Foam::andOp<bool>()) && low == high ? std::optional(high) : std::nullopt;
 }
 
 /// As constant/dynamicMeshDict says. A mesh that only refines itself stays where it is.
@@ -85,6 +50,26 @@ void require_fluid(const Foam::dictionary& transport, const word& phase) {
     property(fluid, "nu", Foam::dimViscosity, 0, 1e3, "m2/s");
 }
 
+/// What to say where commands that set the fluids' places have left one alone; empty else. fraction: of the
+/// first phase everywhere.
+std::string one_fluid_alone(const Foam::Time& time, const Foam::wordList& phases, scalar fraction) {
+  if (fraction != 0 && fraction != 1) return {};
+  const word field = "alpha." + phases[0];
+  for (const char* name : {"setFieldsDict", "setAlphaFieldDict"}) {
+    const Foam::fileName file = time.globalPath() / time.system() / name;
+    std::ifstream stream(file);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (text.find(field) == std::string::npos) continue;
+    return fmt::format(
+        "{} is {:g} everywhere, and no patch brings anything else: there is no {} in this run, though "
+        "system/{} "
+        "has regions for it. Do they lie in the mesh, in metres as it is (docs/warnings.md, One fluid "
+        "alone)?",
+        field.c_str(), fraction, phases[fraction == 0 ? 0 : 1].c_str(), name);
+  }
+  return {};
+}
+
 }  // namespace
 
 // Lives until the program ends: with it the libraries that controlDict names would be unloaded, and what
@@ -101,7 +86,10 @@ SceneFacts fluid_facts(const Foam::argList& args) {
   SceneFacts facts;
   facts.surface_tension = property(transport, "sigma", Foam::dimForce / Foam::dimLength, 0, 1e3, "N/m");
   for (const word& phase : phases) require_fluid(transport, phase);
-  const std::optional<scalar> fraction = fraction_everywhere(time, phases[0]);
+  const AlphaFile alpha(time, phases[0]);
+  facts.advice.push_back(alpha.require_fractions());
+  const std::optional<scalar> fraction = alpha.everywhere();
+  if (fraction) facts.advice.push_back(one_fluid_alone(time, phases, *fraction));
   facts.two_fluids = !fraction;
   const auto density = [&transport](const word& phase) {
     return dimensionedScalar("rho", Foam::dimDensity, transport.subDict(phase)).value();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -62,6 +64,29 @@ class OfTheUser {
   const RunFolder& folder_;
 };
 
+/// Says once that reading goes on and on. Only its author knows whether a script settles a bed or jumps for
+/// ever: both use the processor, and nothing is ended that does.
+class LongReading {
+ public:
+  explicit LongReading(fs::path log) : log_(std::move(log)) {}
+  void look() {
+    using Seconds = std::chrono::duration<double>;
+    constexpr Seconds patience{30};
+    if (said_ || Seconds(std::chrono::steady_clock::now() - begin_) < patience) return;
+    said_ = true;
+    fmt::print(
+        "after {:g} s the case is still being read. A script that settles a bed takes its time, and one that "
+        "loops for ever (jump, next) does not end; what it prints is in {}. Ctrl-C ends the check.\n",
+        patience.count(), log_.string());
+    std::fflush(stdout);
+  }
+
+ private:
+  fs::path log_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  bool said_ = false;
+};
+
 }  // namespace
 
 int check_command(const CaseOptions& options) {
@@ -86,7 +111,8 @@ int check_command(const CaseOptions& options) {
 
   Watch watch;
   watch.on_line = say;
-  watch.on_tick = [] {};
+  LongReading reading(folder.path() / "particles.log");
+  watch.on_tick = [&reading] { reading.look(); };
   const int code = launch(command, watch).code;
   fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");
   return code;

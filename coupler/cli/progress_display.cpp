@@ -31,6 +31,12 @@ std::string facts(const Progress& p) {
   return text;
 }
 
+/// Tells a file from one that has taken its place.
+std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::last_write_time(file, none);
+}
+
 }  // namespace
 
 std::string clock_text(double seconds) {
@@ -54,10 +60,10 @@ Display suitable_display(bool quiet) {
 }
 
 ProgressDisplay::ProgressDisplay(std::filesystem::path progress_file, Display display)
-    : file_(std::move(progress_file)), display_(display) {}
+    : file_(std::move(progress_file)), before_(time_of(file_)), display_(display) {}
 
 void ProgressDisplay::update() {
-  if (display_ == Display::nothing) return;
+  if (display_ == Display::nothing || time_of(file_) == before_) return;
   const auto progress = read_progress(file_);
   if (!progress) return;
   if (display_ == Display::lines) {

@@ -13,7 +13,8 @@ enum class Display { bar, lines, nothing };
 /// A bar on a terminal, a line every tenth of the run elsewhere.
 Display suitable_display(bool quiet);
 
-/// Shows progress.json on standard output.
+/// Shows progress.json on standard output. What is there before is another run's, or the same one's before it
+/// goes on, and not shown.
 class ProgressDisplay {
  public:
   ProgressDisplay(std::filesystem::path progress_file, Display display);
@@ -26,6 +27,7 @@ class ProgressDisplay {
  private:
   void erase_bar();
   std::filesystem::path file_;
+  std::filesystem::file_time_type before_;
   Display display_;
   std::string bar_;        // as it stands on the terminal
   int tenths_shown_ = -1;  // of the run

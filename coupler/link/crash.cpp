@@ -9,8 +9,10 @@
 #include <array>
 #include <atomic>
 #include <new>
+#include <string_view>
 
 #include "coupler/link/failure.hpp"
+#include "coupler/link/run_stage.hpp"
 #include "coupler/link/watch.hpp"
 
 namespace demvof {
@@ -63,6 +65,16 @@ int crash_signal() {
 }
 
 std::string describe_crash(int number, Side side) {
+  const std::string_view stage = run_stage().stage();
+  if (stage == "start" || stage == "particle script" || stage == "reading the fluid case")
+    return fmt::format(
+        "{}.\nWhat to try: this was before the first step, while {} was read: something in it that cannot "
+        "be, and "
+        "is not looked for. Begin with one of the cases in 'cases' and change one thing at a time; {} says "
+        "how "
+        "far it came.",
+        meaning(number), side == Side::fluid ? "the fluid case" : "the particles' script",
+        side == Side::fluid ? "fluid.log" : "particles.log");
   return fmt::format(
       "{}.\nWhat to try: {} says what came before. Mostly the flow or the particles had left what is "
       "physical: "

@@ -27,6 +27,7 @@ class Plan {
   void forces(const ForceParameters& forces);
   void capillary_force(bool named, bool surface_tension);
   SuspensionViscosity suspension_viscosity(const ForceParameters& forces, bool porosity);
+  void advise_on_no_force(const ForceParameters& forces);
   void advise_on_drag(DragLaw chosen);
   void advise_on_added_mass(const ForceParameters& forces);
   void advise_on_phases();
@@ -127,6 +128,19 @@ SuspensionViscosity Plan::suspension_viscosity(const ForceParameters& forces, bo
   return with_particles_ ? law : SuspensionViscosity::none;
 }
 
+void Plan::advise_on_no_force(const ForceParameters& forces) {
+  const bool any = forces.drag != DragLaw::none || forces.pressure_gradient || forces.viscous_stress ||
+                   forces.added_mass > 0 || forces.lift != LiftLaw::none ||
+                   forces.spin_lift != SpinLiftLaw::none || forces.torque || forces.history ||
+                   forces.lubrication || forces.capillary;
+  if (!with_particles_ || any) return;
+  advice.emplace_back(
+      "forces names nothing that the fluid does to particles: they neither float nor are carried along. "
+      "Leave "
+      "the key out for drag and pressure gradient, or name what acts (docs/warnings.md, No force of the "
+      "fluid)");
+}
+
 // A law that is somewhat out of its range is the user's choice; one made for a single sphere in a bed is a
 // mistake that nobody sees.
 void Plan::advise_on_drag(DragLaw chosen) {
@@ -144,9 +158,10 @@ void Plan::advise_on_drag(DragLaw chosen) {
   }
   if (known.empty()) known = "koch_hill (void fractions from 0.359 on)";
   advice.push_back(fmt::format(
-      "forces.drag: {} was fitted for void fractions from {:g} on, and the bed has {:.2g} on the bulk grid: "
+      "forces.drag: {} was fitted for void fractions from {:g} on, and the bed has {} on the bulk grid: "
       "laws that know it are {}, e.g. forces: [{{drag: {}}}, pressure_gradient] (docs/warnings.md, Drag law)",
-      name_of(chosen), smallest, bed, known, known.substr(0, known.find(' '))));
+      name_of(chosen), smallest, bed > 0 ? fmt::format("{:.2g}", bed) : "more solid than room", known,
+      known.substr(0, known.find(' '))));
 }
 
 // A particle lighter than the fluid is accelerated with the fluid around it, or too much.
@@ -283,6 +298,7 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   scene.interchange = plan.interchange(interchange);
   scene.porosity = plan.porosity(scene.interchange);
   scene.suspension_viscosity = plan.suspension_viscosity(forces, scene.porosity);
+  plan.advise_on_no_force(forces);
   plan.advise_on_drag(forces.drag);
   plan.advise_on_added_mass(forces);
   plan.advise_on_phases();
@@ -293,6 +309,8 @@ Scene plan_scene(const SceneParameters& forced, const SceneFacts& facts, const F
   if (!plan.impossible.empty()) throw InputError(plan.impossible);
   scene.decisions = plan.decisions;
   scene.advice = plan.advice;
+  for (const std::string& said : facts.advice)
+    if (!said.empty()) scene.advice.push_back(said);
   return scene;
 }
 

@@ -24,6 +24,7 @@ struct SceneFacts {
   double dem_time_step = 0;           // s
   double collision_time = 0;          // shortest in a linear spring, s; 0: not known
   double rayleigh_time = 0;           // of the particle with the shortest, s; 0: not known
+  std::vector<std::string> advice;    // what was seen on the way; empty texts are none
 };
 
 struct Decision {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the demvof command that need no solver: quoting, exit codes, progress, summary, run folders.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -205,6 +206,21 @@ TEST(ProgressLine, ShowsTimeSpeedRemainingCourantAndParticles) {
 TEST(ProgressLine, FitsTheTerminal) {
   for (int width = 0; width < 200; ++width)
     EXPECT_LE(progress_line(halfway(), width).size(), static_cast<std::size_t>(width));
+}
+
+TEST(ProgressDisplay, ShowsNothingOfWhatWasThereBefore) {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("demvof-progress-{}.json", getpid());
+  const auto write = [&file] { ProgressFile(file).update(halfway()); };
+  write();
+  ProgressDisplay display(file, Display::lines);
+  testing::internal::CaptureStdout();
+  display.update();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  std::filesystem::last_write_time(file, std::filesystem::last_write_time(file) - std::chrono::hours(1));
+  testing::internal::CaptureStdout();
+  display.update();
+  EXPECT_NE(testing::internal::GetCapturedStdout().find(" 50 %"), std::string::npos);
+  std::filesystem::remove(file);
 }
 
 TEST(RunSummary, ShowsWhatAUserAsksForFirst) {

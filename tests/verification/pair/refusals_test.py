@@ -266,9 +266,9 @@ TRIALS = {
 }
 
 
-def main():
+def judge(trials):
     wrong = 0
-    for name, (make, code, words) in TRIALS.items():
+    for name, (make, code, words) in trials.items():
         if NAMES and name not in NAMES:
             continue
         check = subprocess.run([DEMVOF, "check", make()], capture_output=True, text=True, timeout=120, check=False)
@@ -281,4 +281,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(judge(TRIALS))
