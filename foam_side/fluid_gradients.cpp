@@ -56,8 +56,9 @@ Foam::vectorField fluid_acceleration(const Flow& flow) {
 FluidGradients fluid_gradients(Flow& flow, const ForceParameters& forces) {
   const label cells = flow.mesh.nCells();
   FluidGradients found{Foam::vectorField(cells, Foam::Zero), Foam::vectorField(cells, Foam::Zero),
-                       Foam::vectorField(cells, Foam::Zero)};
-  if (forces.viscous_stress) found.stress_force += viscous_force(flow);
+                       Foam::vectorField(cells, Foam::Zero), Foam::vectorField(cells, Foam::Zero)};
+  if (forces.viscous_stress) found.viscous_force = viscous_force(flow);
+  found.stress_force += found.viscous_force;
   if (forces.capillary && flow.scene.surface_tension) found.stress_force += capillary_force(flow);
 
   const bool accelerates = need_acceleration(forces) && flow.U.nOldTimes() > 0;

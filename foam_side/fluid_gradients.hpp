@@ -8,9 +8,10 @@ namespace demvof {
 
 /// Derivatives of the fluid's fields that forces on particles need, one value per cell.
 struct FluidGradients {
-  Foam::vectorField stress_force;  // the named ones of div tau and sigma kappa grad alpha, N/m3
-  Foam::vectorField acceleration;  // Du/Dt of the last time step, m/s2; 0 before the first one
-  Foam::vectorField vorticity;     // curl u, 1/s
+  Foam::vectorField stress_force;   // the named ones of div tau and sigma kappa grad alpha, N/m3
+  Foam::vectorField viscous_force;  // what of it is div tau, N/m3
+  Foam::vectorField acceleration;   // Du/Dt of the last time step, m/s2; 0 before the first one
+  Foam::vectorField vorticity;      // curl u, 1/s
 };
 
 /// Only what a named force asks for is computed, the rest is 0. Call between time steps: flow only lends

@@ -13,7 +13,10 @@
 //   grad p_k = mean over k of (grad p - rho g) + rho_k g
 //
 // so that what fine cells with both fluids have of the other's weight is left out: at rest a wet part feels
-// the liquid's hydrostatic gradient and a dry one the gas's, however the surface is smeared.
+// the liquid's hydrostatic gradient and a dry one the gas's, however the surface is smeared. Of grad p and of
+// the viscous stress the thinner fluid is not told what the thicker one's viscosity makes there
+// (stress_of_other.hpp), and viscosity is always that of k: a wisp of 1e-6 of a liquid of 1e6 Pa s would hold
+// a bead in the gas.
 //
 // With coupling.order 2 grad p and Du/Dt are means over the window (window_means.hpp).
 //
@@ -29,6 +32,7 @@
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/fluid_gradients.hpp"
 #include "foam_side/sharing_weights.hpp"
+#include "foam_side/stress_of_other.hpp"
 #include "foam_side/window_means.hpp"
 #include "leastSquaresGrad.H"
 
@@ -88,20 +92,24 @@ void FluidToBulk::renew() {
 std::vector<FluidToBulk::Means> FluidToBulk::means() const {
   const SharingWeights weights(flow_, surface_, cut_, sharing_);
   const Foam::vectorField* mean_of_window = find_mean_gradient(flow_);
-  const Foam::vectorField gradient =
+  const Foam::vectorField whole =
       mean_of_window ? Foam::vectorField(*mean_of_window + flow_.rho.primitiveField() * flow_.g.value())
                      : pressure_gradient(flow_, forces_.capillary || !flow_.porosity);
   const tmp<scalarField> viscosity = dynamic_viscosity(flow_);
-  tmp<Foam::tensorField> velocity_slope, gradient_slope;
-  if (cut_.has_profiles()) {
-    velocity_slope = slopes(flow_.U);
-    // Without the weight, which jumps at a surface and has no slope beside it.
-    const Foam::vectorField driving(gradient - flow_.rho.primitiveField() * flow_.g.value());
-    gradient_slope = slopes(
-        with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, driving));
-  }
+  tmp<Foam::tensorField> velocity_slope;
+  if (cut_.has_profiles()) velocity_slope = slopes(flow_.U);
   std::vector<Means> all;
   for (int k = 0; k < surface_.fluids(); ++k) {
+    const Foam::vectorField gradient(
+        whole -
+        stress_of_other(flow_, k, mean_of_window ? find_mean_stress(flow_) : find_stress_in_cells(flow_)));
+    tmp<Foam::tensorField> gradient_slope;
+    if (cut_.has_profiles()) {
+      // Without the weight, which jumps at a surface and has no slope beside it.
+      const Foam::vectorField driving(gradient - flow_.rho.primitiveField() * flow_.g.value());
+      gradient_slope = slopes(
+          with_boundary("pressureGradientOfBulk", flow_.mesh, Foam::dimPressure / Foam::dimLength, driving));
+    }
     const double rho_k = density_of(flow_, k);
     const tmp<scalarField> viscosity_k =
         surface_.fluids() > 1 ? dynamic_viscosity(flow_, k) : tmp<scalarField>(viscosity());
@@ -119,7 +127,7 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
       if (cut) sum.pressure_gradient += w.gradient * (rho_k - rho) * to_vec3(flow_.g.value());
       sum.gradient_weight += w.gradient;
       sum.rho += w.property * (cut ? rho_k : rho);
-      sum.mu += w.property * (cut ? viscosity_k()[subcell.fine] : viscosity()[subcell.fine]);
+      sum.mu += w.property * viscosity_k()[subcell.fine];
       sum.property_weight += w.property;
       sum.eps += (flow_.porosity ? flow_.porosity->eps[subcell.fine] : 1.0) * v;
       sum.volume += v;
@@ -139,8 +147,8 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
       means.fluid.values.back().velocity += sum.weighted_rise / sum.weight;
       means.fluid_volume.push_back(sum.eps);
     }
+    if (sampler_) sample_points(gradient, viscosity_k(), means);
   }
-  if (sampler_) sample_points(gradient, viscosity, all);
   for (Means& means : all)
     for (std::size_t i = 0; i < means.shift.size(); ++i)
       means.shift[i] = means.fluid.values[i].velocity - means.shift[i];
@@ -150,21 +158,20 @@ std::vector<FluidToBulk::Means> FluidToBulk::means() const {
 /// Puts values at the centres of the bulk cells in place of means. A cell whose centre no fine cell holds, or
 /// that the surface cuts, keeps its means.
 void FluidToBulk::sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
-                                std::vector<Means>& means) const {
+                                Means& means) const {
   std::vector<FluidSample> samples = sampler_->sample(flow_, gradient, viscosity);
   for (std::size_t slot = 0; slot < samples.size(); ++slot)
     if (surface_.is_cut(static_cast<int>(slot))) samples[slot] = {};
   const CellValues<FluidSample> sums = cut_.cells().sum_to_owners(samples);
-  for (Means& of_fluid : means)
-    for (std::size_t i = 0; i < of_fluid.fluid.cells.size(); ++i) {
-      const FluidSample* sum = find(sums, of_fluid.fluid.cells[i]);
-      if (!sum || sum->cells == 0) continue;
-      BulkFluid& cell = of_fluid.fluid.values[i];
-      cell.velocity = sum->velocity / sum->cells;
-      cell.pressure_gradient = sum->pressure_gradient / sum->cells;
-      cell.density = sum->density / sum->cells;
-      cell.viscosity = sum->viscosity / sum->cells;
-    }
+  for (std::size_t i = 0; i < means.fluid.cells.size(); ++i) {
+    const FluidSample* sum = find(sums, means.fluid.cells[i]);
+    if (!sum || sum->cells == 0) continue;
+    BulkFluid& cell = means.fluid.values[i];
+    cell.velocity = sum->velocity / sum->cells;
+    cell.pressure_gradient = sum->pressure_gradient / sum->cells;
+    cell.density = sum->density / sum->cells;
+    cell.viscosity = sum->viscosity / sum->cells;
+  }
 }
 
 std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
@@ -174,13 +181,15 @@ std::vector<CellValues<BulkFluidGradients>> FluidToBulk::gradients() const {
   const SharingWeights weights(flow_, surface_, cut_, sharing_);
   std::vector<CellValues<BulkFluidGradients>> all;
   for (int k = 0; k < surface_.fluids(); ++k) {
+    Foam::vectorField stress_force(fine.stress_force);
+    if (forces_.viscous_stress) stress_force -= others_stress_share(flow_, k) * fine.viscous_force;
     std::vector<GradientSums> sums(cut_.cells().cells().size());
     for (const Subcell& subcell : cut_.subcells()) {
       const double v = surface_.share(k, subcell) * subcell.volume;
       if (v == 0) continue;
       GradientSums& sum = sums[subcell.slot];
       const SharingWeights::Of w = weights.of(k, subcell);
-      sum.weighted.stress_force += w.gradient * to_vec3(fine.stress_force[subcell.fine]);
+      sum.weighted.stress_force += w.gradient * to_vec3(stress_force[subcell.fine]);
       sum.weighted.acceleration += w.force * to_vec3(fine.acceleration[subcell.fine]);
       sum.weighted.vorticity += w.force * to_vec3(fine.vorticity[subcell.fine]);
       sum.weight += w.force;

@@ -38,8 +38,7 @@ class FluidToBulk {
   CellValues<BulkInterface> interface() const;
 
  private:
-  void sample_points(const Foam::vectorField& gradient, const scalarField& viscosity,
-                     std::vector<Means>& means) const;
+  void sample_points(const Foam::vectorField& gradient, const scalarField& viscosity, Means& means) const;
 
   Flow& flow_;
   const BulkCut& cut_;

@@ -28,6 +28,7 @@
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "foam_side/fine_mesh.hpp"
 #include "foam_side/sharing_weights.hpp"
+#include "foam_side/stress_of_other.hpp"
 
 namespace demvof {
 
@@ -219,6 +220,7 @@ ParticlesToFine::LeftToParticles ParticlesToFine::left_to_particles(const Foam::
   const double dt = flow_.time.deltaTValue();
   LeftToParticles left;
   for (int k = 0; k < fluids; ++k) {
+    const Foam::vectorField stress = stress_of_other(flow_, k, find_stress_in_cells(flow_));
     std::vector<OwedPressure::Left> here(cut_.cells().cells().size());
     for (std::size_t i = 0; i < subcells.size(); ++i) {
       const label cell = subcells[i].fine;
@@ -228,6 +230,7 @@ ParticlesToFine::LeftToParticles ParticlesToFine::left_to_particles(const Foam::
       Vec3 others;  // of the weight of the other fluid in the fine cell
       if (surface_.is_cut(subcells[i].slot))
         others = (density_of(flow_, k) - density_between_particles(flow_, cell)) * to_vec3(flow_.g.value());
+      others -= to_vec3(stress[cell]);
       here[subcells[i].slot].impulse -= exposed * (to_vec3(gradient[cell]) + others);
       left.smeared_weight -= exposed * others;
       here[subcells[i].slot].exposed += exposed;

@@ -78,8 +78,9 @@ class ParticlesToFine {
   void count_given(const Vec3& impulse) { collected_sum_ += impulse; }
   /// What the pressure of the step just done left to the particles of each bulk cell, by fluid: cells owned
   /// by this rank. Where the surface cuts a bulk cell, with the weight of that fluid in place of the
-  /// mixture's of its fine cells, as it is told (fluid_to_bulk.cpp); smeared_weight: what that adds, of this
-  /// rank, N s. gradient: grad p, per fine cell.
+  /// mixture's of its fine cells, and without the stress that is not that fluid's (stress_of_other.hpp), as
+  /// it is told (fluid_to_bulk.cpp); smeared_weight: what that adds, of this rank, N s. gradient: grad p, per
+  /// fine cell.
   struct LeftToParticles {
     std::vector<CellValues<OwedPressure::Left>> by_fluid;
     Vec3 smeared_weight;

@@ -20,6 +20,7 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/stress_of_other.hpp"
 #include "foam_side/viscous_rate.hpp"
 
 namespace demvof {
@@ -46,9 +47,11 @@ tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
       Foam::IOobject("rho", flow.time.timeName(), flow.mesh, Foam::IOobject::NO_READ,
                      Foam::IOobject::NO_WRITE, false),
       stress_share(flow) * flow.rho);
+  const tmp<Foam::fvVectorMatrix> stress = flow.turbulence->divDevRhoReff(stress_density, flow.U);
+  flow.pressure_system.stress = std::make_unique<Foam::fvVectorMatrix>(stress());
   tmp<Foam::fvVectorMatrix> momentum =
       Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
-      fvm::div(flow.rho_phi, flow.U) + flow.turbulence->divDevRhoReff(stress_density, flow.U);
+      fvm::div(flow.rho_phi, flow.U) + stress;
   // After the matrix, which brings the boundary's velocity to the present time.
   if (flow.pimple.finalIter()) note_explicit_stress(flow, stress_density);
   return momentum;
@@ -141,6 +144,7 @@ bool predicts(Flow& flow) {
   const bool viscous = flow.source && number > most_of_corrections;
   flow.pressure_system.viscous = viscous;
   if (!viscous && find_gradient_at_kinks(flow)) gradient_at_kinks(flow) = Foam::Zero;
+  if (!viscous && find_stress_in_cells(flow)) stress_in_cells(flow) = Foam::Zero;
   static bool said = false;
   if (!said && (flow.pressure_system.viscous || (number > 1 && !flow.pimple.momentumPredictor()))) {
     Foam::Info << (flow.source ? "Momentum solved in each pressure correction where nu dt/dx2 > 0.25"

@@ -12,6 +12,7 @@ namespace demvof {
 /// What one momentum prediction leaves for its pressure corrections.
 struct PressureSystem {
   std::unique_ptr<Foam::fvVectorMatrix> momentum;  // inertia and stress; no particle force
+  std::unique_ptr<Foam::fvVectorMatrix> stress;    // what of it is -div(m tau); where viscous
   std::unique_ptr<Foam::fvVectorMatrix> sources;   // what of it fvOptions give; none: nullptr
   Foam::vectorField force;  // of the particles, with what the last step left open, N/m3
   std::unique_ptr<volScalarField> inverse_diagonal;  // 1/A, m3 s/kg

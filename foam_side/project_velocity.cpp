@@ -44,6 +44,7 @@
 #include "foam_side/fluid_books.hpp"
 #include "foam_side/open_momentum.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/stress_of_other.hpp"
 #include "foam_side/unsettled_corrections.hpp"
 
 namespace demvof {
@@ -312,6 +313,8 @@ void project_velocity(Flow& flow) {
   const Foam::vectorField left(residual(flow, before));
 
   const scalarField eps(void_fraction(flow));
+  if (system.stress)  // stress_of_other.hpp
+    stress_in_cells(flow) = (left - (*system.stress & flow.U)().primitiveField()) / eps;
   const scalarField own(own_inertia(flow));
   const scalarField inertia(own + flow.source->coefficient.field());  // A_0 + C
   const volScalarField resistance(with_boundary("resistance", flow.mesh, system.momentum->A()().dimensions(),

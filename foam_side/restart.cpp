@@ -18,10 +18,8 @@
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
 #include "foam_side/case_sources.hpp"
+#include "foam_side/continued_fields.hpp"
 #include "foam_side/gathered_state.hpp"
-#include "foam_side/open_momentum.hpp"
-#include "foam_side/pressure_gradient.hpp"
-#include "foam_side/window_means.hpp"
 #include "labelIOList.H"
 
 namespace demvof {
@@ -112,13 +110,8 @@ json flow_state(const Flow& flow, const ForceParameters& forces) {
   }
   if (need_acceleration(forces))  // Du/Dt looks back by a step
     state["velocity_before"] = components(flow.U.oldTime().primitiveField());
-  if (const Foam::vectorField* own = find_own_gradient(flow)) state["own_gradient"] = components(*own);
-  if (const Foam::vectorField* kinks = find_gradient_at_kinks(flow))
-    state["gradient_at_kinks"] = components(*kinks);
-  if (const Foam::vectorField* open = find_open_momentum(flow)) state["open_momentum"] = components(*open);
-  if (const Foam::vectorField* mean = find_mean_gradient(flow)) state["mean_gradient"] = components(*mean);
-  if (const Foam::vectorField* mean = find_mean_acceleration(flow))
-    state["mean_acceleration"] = components(*mean);
+  for (const ContinuedField& field : continued_fields)
+    if (const Foam::vectorField* values = field.find(flow)) state[field.name] = components(*values);
   return state;
 }
 
@@ -138,13 +131,8 @@ void go_on(Flow& flow, const json& state) {
     forAll(flow.porosity->goal, cell) flow.porosity->goal[cell] = goal.at(static_cast<std::size_t>(cell));
   }
   if (flow.ghost) add_ghost_density(flow);
-  if (state.contains("own_gradient")) read_components(state, "own_gradient", own_gradient(flow));
-  if (state.contains("gradient_at_kinks"))
-    read_components(state, "gradient_at_kinks", gradient_at_kinks(flow));
-  if (state.contains("open_momentum")) read_components(state, "open_momentum", open_momentum(flow));
-  if (state.contains("mean_gradient")) read_components(state, "mean_gradient", mean_gradient(flow));
-  if (state.contains("mean_acceleration"))
-    read_components(state, "mean_acceleration", mean_acceleration(flow));
+  for (const ContinuedField& field : continued_fields)
+    if (state.contains(field.name)) read_components(state, field.name, field.of(flow));
   if (state.contains("velocity_before"))
     read_components(state, "velocity_before", flow.U.oldTime().primitiveFieldRef());
 }

@@ -12,12 +12,14 @@
 #include "foam_side/fluid_gradients.hpp"
 #include "foam_side/kept_field.hpp"
 #include "foam_side/pressure_gradient.hpp"
+#include "foam_side/stress_of_other.hpp"
 
 namespace demvof {
 
 namespace {
 
 const char* const gradient_name = "meanPressureGradient";
+const char* const stress_name = "meanStressInCells";
 const char* const acceleration_name = "meanAcceleration";
 
 }  // namespace
@@ -27,6 +29,12 @@ Foam::vectorField& mean_gradient(Flow& flow) {
 }
 Foam::vectorField& mean_acceleration(Flow& flow) {
   return kept(flow, acceleration_name, Foam::dimAcceleration);
+}
+Foam::vectorField& mean_stress(Flow& flow) {
+  return kept(flow, stress_name, Foam::dimForce / Foam::dimVolume);
+}
+const Foam::vectorField* find_mean_stress(const Flow& flow) {
+  return find_kept(flow, stress_name);
 }
 const Foam::vectorField* find_mean_gradient(const Flow& flow) {
   return find_kept(flow, gradient_name);
@@ -44,6 +52,7 @@ void add_to_window_means(Flow& flow, bool with_laplace_jump, bool with_accelerat
   };
   add(mean_gradient(flow),
       pressure_gradient(flow, with_laplace_jump) - flow.rho.primitiveField() * flow.g.value());
+  if (const Foam::vectorField* stress = find_stress_in_cells(flow)) add(mean_stress(flow), *stress);
   if (with_acceleration) add(mean_acceleration(flow), fluid_acceleration(flow));
 }
 

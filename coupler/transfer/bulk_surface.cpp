@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "coupler/base/sphere.hpp"
@@ -53,6 +54,22 @@ class Neighbourhood {
   }
 
   const std::vector<NearCell>& cells() const { return cells_; }
+
+  /// How far above the centre, along the normal, the gas of the lowest cells without liquid begins, or the
+  /// liquid of the highest cells full of it ends; m. For a surface on faces.
+  double face_of(bool liquid, const Vec3& position, const Vec3& normal) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const NearCell& cell : cells_) {
+      if ((cell.surface.liquid_fraction > 0.5) != liquid) continue;
+      Vec3 to_cell;
+      for (int axis = 0; axis < 3; ++axis)
+        to_cell[axis] = std::clamp(position[axis], cell.centre[axis] - 0.5 * spacing_[axis],
+                                   cell.centre[axis] + 0.5 * spacing_[axis]) -
+                        position[axis];
+      nearest = std::min(nearest, (liquid ? -1 : 1) * dot(normal, to_cell));
+    }
+    return (liquid ? -1 : 1) * nearest;
+  }
   int index(double coordinate, int axis) const {
     return static_cast<int>(std::floor((coordinate - lower_[axis]) / spacing_[axis]));
   }
@@ -233,10 +250,12 @@ SeenSurface see_surface(const BulkGrid& grid, const Vec3& position, double radiu
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
   seen.wetted = reaches_liquid ? wetted_share(near, position, radius, axis) : 0;
   seen.distance = radius * plane_height(seen.wetted);
-  if (overlap == 0) return seen;
   // Not touched yet: how far it is.
-  if (seen.wetted <= 0) seen.distance = std::min(-radius, height / overlap);
-  if (seen.wetted >= 1) seen.distance = std::max(radius, height / overlap);
+  const auto there = [&](bool liquid) {
+    return overlap > 0 ? height / overlap : near.face_of(liquid, position, seen.normal);
+  };
+  if (seen.wetted <= 0) seen.distance = std::min(-radius, there(true));
+  if (seen.wetted >= 1) seen.distance = std::max(radius, there(false));
   return seen;
 }
 

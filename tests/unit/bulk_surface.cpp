@@ -75,6 +75,11 @@ TEST(BulkSurface, SurfaceOnTheFacesOfBulkCells) {
   EXPECT_NEAR(seen.wetted, share_below_plane(-0.2), 1.2e-3);
   EXPECT_NEAR(seen.normal.z, 1, 1e-12);
   EXPECT_NEAR(seen.distance, -0.01, 2e-4);
+  // Not touched: not at once when the sphere is near enough to see it.
+  const auto on_faces = plane_surface(grid, {0, 0, 1}, 0.6);
+  EXPECT_NEAR(see_surface(grid, {0.5, 0.4, 0.68}, radius, on_faces).distance, -0.08, 1e-12);
+  EXPECT_NEAR(see_surface(grid, {0.5, 0.4, 0.52}, radius, on_faces).distance, 0.08, 1e-12);
+  EXPECT_EQ(see_surface(grid, {0.5, 0.4, 0.52}, radius, on_faces).wetted, 1);
 }
 
 TEST(BulkSurface, ContinuousWhereSphereAndSurfacePassFaces) {
