@@ -48,6 +48,14 @@ Fastest fastest(const Dem& dem) {
   return found;
 }
 
+double highest_density(const Dem& dem) {
+  const ParticleArrays all = dem.particles();
+  double highest = 0;
+  for (int i = 0; i < all.count; ++i) highest = std::max(highest, all.mass[i] / all.volume(i));
+  check_mpi(MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, dem.world()), "MPI_Allreduce");
+  return highest;
+}
+
 bool any_held(const Dem& dem) {
   const ParticleArrays all = dem.particles();
   int held = 0;
@@ -64,8 +72,9 @@ nlohmann::json first_look(const Dem& dem) {
   for (const PlaneWall& wall : walls.planes)
     planes.push_back({{"fix", wall.fix}, {"axis", wall.axis}, {"at", wall.at}});
   const Fastest quick = fastest(dem);
-  return {{"particles", some_particles(dem)}, {"fastest", quick.speed}, {"fastest_id", quick.id},
-          {"any_held", any_held(dem)},        {"planes", planes},       {"other_walls", walls.others}};
+  return {{"particles", some_particles(dem)}, {"fastest", quick.speed},    {"fastest_id", quick.id},
+          {"heaviest", highest_density(dem)}, {"any_held", any_held(dem)}, {"planes", planes},
+          {"other_walls", walls.others}};
 }
 
 }  // namespace demvof

@@ -134,6 +134,61 @@ void require_solver(const Flow& flow, const char* name, const char* like, const 
       fmt::format("system/fvSolution: solvers: {} is missing{}; add {}{}", name, why, name, like));
 }
 
+/// What OpenFOAM has under a name, for matrices of one kind.
+template <class Table>
+void require_known(const Table* table, const dictionary& in, const char* key, const std::string& where,
+                   const char* kind) {
+  const Foam::entry* const entry = in.findEntry(key, Foam::keyType::LITERAL);
+  if (!entry || !table) return;
+  const dictionary& part = entry->isDict() ? entry->dict() : in;
+  const word name(part.lookup(key));
+  if (table->found(name)) return;
+  std::string all;
+  for (const word& known : table->sortedToc()) all += fmt::format(" {}", known.c_str());
+  throw InputError(fmt::format("system/fvSolution:{}: {}: {}: {} is not known for {} matrices; give one of{}",
+                               part.lookupEntry(key, Foam::keyType::LITERAL).startLineNumber(), where, key,
+                               name.c_str(), kind, all));
+}
+
+/// A fluid at rest asks for none of it in its first step.
+template <class Parts>
+void require_parts(const Parts& parts, const dictionary& solvers, const char* name, const char* kind) {
+  const dictionary* const solver = solvers.findDict(name, Foam::keyType::REGEX);
+  if (!solver) return;
+  const std::string where = std::string("solvers: ") + name;
+  require_known(parts.solvers, *solver, "solver", where, kind);
+  const word type = solver->lookupOrDefault<word>("solver", "");
+  const bool smooths = type == "GAMG" || type == "smoothSolver";
+  if (smooths)
+    require_known(parts.smoothers, *solver, "smoother", where, kind);
+  else
+    require_known(parts.preconditioners, *solver, "preconditioner", where, kind);
+}
+
+template <class Solvers, class Smoothers, class Preconditioners>
+struct Parts {
+  const Solvers* solvers;
+  const Smoothers* smoothers;
+  const Preconditioners* preconditioners;
+};
+template <class... Tables>
+Parts(const Tables*...) -> Parts<Tables...>;
+
+void require_known_parts(const Flow& flow, bool momentum) {
+  using Matrix = Foam::lduMatrix;
+  const dictionary& solvers = flow.mesh.solutionDict().subOrEmptyDict("solvers");
+  const Parts symmetric{Matrix::solver::symMatrixConstructorTablePtr_,
+                        Matrix::smoother::symMatrixConstructorTablePtr_,
+                        Matrix::preconditioner::symMatrixConstructorTablePtr_};
+  const Parts asymmetric{Matrix::solver::asymMatrixConstructorTablePtr_,
+                         Matrix::smoother::asymMatrixConstructorTablePtr_,
+                         Matrix::preconditioner::asymMatrixConstructorTablePtr_};
+  for (const char* name : {"p_rgh", "p_rghFinal", "pcorr", "pcorrFinal"})
+    require_parts(symmetric, solvers, name, "symmetric");
+  for (const char* name : {"U", "UFinal"})
+    if (momentum) require_parts(asymmetric, solvers, name, "asymmetric");
+}
+
 }  // namespace
 
 void require_numbers_that_can_be(const Foam::Time& time, bool particles) {
@@ -165,6 +220,7 @@ void require_solvers(const Flow& flow, double longest_step) {
     require_solver(flow, "pcorr", " or \"pcorr.*\" { $p_rgh; relTol 0; }", ", for the particles' flux");
   const double number = viscous_rate(flow) * longest_step, most = flow.source ? most_of_corrections : 1;
   const bool asked = flow.pimple.momentumPredictor();
+  require_known_parts(flow, asked || number > most);
   if (!asked && number <= most) return;
   const std::string why =
       asked

@@ -10,6 +10,7 @@
 
 #include "coupler/base/errors.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "wallPolyPatch.H"
 
 namespace demvof {
 namespace {
@@ -34,6 +35,7 @@ struct Look {
   std::vector<Body> bodies;
   std::vector<Plane> planes;
   double largest_radius = 0;  // m, at the start
+  double heaviest = 0;        // kg/m3
   double fastest = 0;         // m/s
   int fastest_id = 0;
   bool inserts = false, any_held = false, other_walls = false;
@@ -44,6 +46,7 @@ struct Look {
   std::string too_fast() const;
   std::vector<std::string> walls_inside() const;
   std::string no_floor() const;
+  double fastest_fall(double g) const;
 };
 
 bool is_inside(const Look& look, const Vec3& place) {
@@ -120,6 +123,41 @@ std::string Look::too_fast() const {
       fastest_id, fastest, fastest * window / smallest);
 }
 
+enum class End { wall, inlet, other };  // inlet: one that gives a velocity
+
+/// Of the mesh. Other: the fluid leaves through it, or no face lies in it.
+End kind_of(const Flow& flow, int axis, double end, double extent) {
+  constexpr double tolerance = 1e-6;
+  bool open = false, any = false, walls = true;
+  forAll(flow.mesh.boundary(), patch) {
+    const Foam::fvPatch& here = flow.mesh.boundary()[patch];
+    const bool through = here.coupled() || flow.p_rgh.boundaryField()[patch].fixesValue();
+    if (Foam::isA<Foam::processorPolyPatch>(here.patch())) continue;
+    for (const vector& centre : here.Cf())
+      if (std::abs(centre[axis] - end) < tolerance * extent) {
+        any = true;
+        open = open || through;
+        walls = walls && Foam::isA<Foam::wallPolyPatch>(here.patch());
+      }
+  }
+  Foam::reduce(any, Foam::orOp<bool>());
+  Foam::reduce(open, Foam::orOp<bool>());
+  Foam::reduce(walls, Foam::andOp<bool>());
+  return !any || open ? End::other : walls ? End::wall : End::inlet;
+}
+
+/// Beyond what they have at the start, m/s: spheres of the largest size and density, with a drag coefficient
+/// below that of every law, in the lighter of the fluids that there are.
+double Look::fastest_fall(double g) const {
+  constexpr double least_drag = 0.4;
+  const double first = flow.mixture.rho1().value(), second = flow.mixture.rho2().value();
+  const double liquid = Foam::gAverage(flow.alpha.primitiveField());
+  const double fluid = flow.scene.two_fluids ? std::min(first, second) : liquid > 0.5 ? first : second;
+  if (parameters.forces.drag == DragLaw::none) return std::numeric_limits<double>::infinity();
+  const double ratio = std::max(0.0, heaviest / fluid - (parameters.forces.pressure_gradient ? 1 : 0));
+  return std::sqrt(4.0 / 3 * 2 * largest_radius * ratio * g / least_drag);
+}
+
 std::vector<std::string> Look::walls_inside() const {
   std::vector<std::string> said;
   const Vec3 spacing = grid.spacing();
@@ -128,6 +166,8 @@ std::vector<std::string> Look::walls_inside() const {
     const double room = largest_radius > 0 ? largest_radius : 0.5 * spacing[wall.axis];
     const double low = mesh.lower[wall.axis], high = mesh.upper[wall.axis];
     if (wall.at <= low + room || wall.at >= high - room) continue;
+    const double nearest = wall.at - low < high - wall.at ? low : high;
+    if (kind_of(flow, wall.axis, nearest, high - low) != End::wall) continue;  // a sieve before an opening
     said.push_back(fmt::format(
         "the script's wall {0} ({1}plane {2:.4g}) stands inside the fluid's mesh, which goes from {3:.4g} to "
         "{4:.4g} "
@@ -137,24 +177,6 @@ std::vector<std::string> Look::walls_inside() const {
   return said;
 }
 
-/// Whether the mesh's end is one that nothing of the fluid leaves through: walls, and inlets that give a
-/// velocity. False where no face lies in it.
-bool is_closed(const Flow& flow, int axis, double end, double extent) {
-  constexpr double tolerance = 1e-6;
-  bool open = false, any = false;
-  forAll(flow.mesh.boundary(), patch) {
-    const Foam::fvPatch& here = flow.mesh.boundary()[patch];
-    const bool through = here.coupled() || flow.p_rgh.boundaryField()[patch].fixesValue();
-    if (Foam::isA<Foam::processorPolyPatch>(here.patch())) continue;
-    for (const vector& centre : here.Cf())
-      if (std::abs(centre[axis] - end) < tolerance * extent) {
-        any = true;
-        open = open || through;
-      }
-  }
-  return Foam::returnReduce(any, Foam::orOp<bool>()) && !Foam::returnReduce(open, Foam::orOp<bool>());
-}
-
 std::string Look::no_floor() const {
   int axis = 0;
   for (int other = 1; other < 3; ++other)
@@ -162,17 +184,18 @@ std::string Look::no_floor() const {
   const double g = std::abs(gravity[axis]), down = gravity[axis] < 0 ? -1 : 1;
   if (g == 0 || !ends(axis)) return {};
   const double low = mesh.lower[axis], high = mesh.upper[axis], end = down < 0 ? low : high;
-  if (!is_closed(flow, axis, end, high - low) || other_walls || any_held) return {};
+  if (kind_of(flow, axis, end, high - low) == End::other || other_walls || any_held) return {};
 
   // Down from a place to the end, m; the highest place counts for what comes from an insertion.
   const double time = parameters.coupling.end_time;
   double deepest = 0;  // of the particles
   bool arrives = inserts;
+  const double falling = fastest_fall(g);
   for (const Body& body : bodies) {
     const double way = down * (end - body.place[axis]);
     deepest = &body == &bodies.front() ? way : std::min(deepest, way);
     const double speed = std::max(0.0, down * body.velocity[axis]);
-    arrives = arrives || (way > 0 && way < speed * time + 0.5 * g * time * time);
+    arrives = arrives || (way > 0 && way < (speed + std::min(0.5 * g * time, falling)) * time);
   }
   if (bodies.empty()) deepest = 0.5 * (high - low);
   const Plane* below = nullptr;
@@ -211,6 +234,7 @@ std::vector<std::string> first_look(const CaseParameters& parameters, const Flow
   look.largest_radius = 0.5 * particles.at("max_diameter").get<double>();
   look.fastest = seen.at("fastest");
   look.fastest_id = seen.at("fastest_id");
+  look.heaviest = seen.at("heaviest");
   look.inserts = particles.at("inserts_particles");
   look.any_held = seen.at("any_held");
   look.other_walls = seen.at("other_walls");

@@ -94,10 +94,11 @@ std::string said_by(const Foam::error& caught, const fs::path& folder) try {
     return "system/controlDict: functions: this OpenFOAM cannot read function objects, nor can its own "
            "interFoam "
            "(Debian 13's package): take them out (docs/versions.md)";
-  if (message.find("dimensions") != std::string::npos)
-    if (const std::string wrong = wrong_dimensions(folder); !wrong.empty()) return wrong;
   const auto* input = dynamic_cast<const Foam::IOerror*>(&error);
-  if (!input) return message;
+  if (!input) {  // not every operator says the word
+    const std::string wrong = wrong_dimensions(folder);
+    return wrong.empty() ? message : wrong;
+  }
   if (!input->ioFileName().empty())
     return fmt::format("{}, line {}: {}", input->ioFileName().c_str(), input->ioStartLineNumber(), message);
   std::smatch unknown;

@@ -62,6 +62,13 @@ def that_falls(name, **more):
     return case.write()
 
 
+def sieve():
+    case = box("sieve_above_an_inlet", script_tail=plane("sieve", 0.012))
+    case.end_time = 1
+    case.sides.update({"z-": Inlet((0, 0, 0.1)), "z+": Open(1)})
+    return case.write()
+
+
 def in_half(name, places):
     """The mesh is the lower corner of the bulk grid, half as wide, open above."""
     case = beads(name, places)
@@ -119,6 +126,7 @@ TRIALS = {
     "wall_of_the_script_inside": (lambda: box("wall_of_the_script_inside", script_tail=plane("shelf", 0.03)).write(), 0,
                                   ["beware: the script's wall shelf (zplane 0.03) stands inside"]),
     "floor_that_is_not_there": (lambda: that_falls("floor_that_is_not_there"), 0, ["fall out of the fluid", "no wall there"]),
+    "sieve_above_an_inlet": (sieve, 0, ["not: stands inside", "not: fall out"]),
     "floor_that_is_too_low": (lambda: that_falls("floor_that_is_too_low", script_tail=plane("cellar", -0.02)), 0,
                               ["cellar, is at -0.02 m"]),
     "floor": (lambda: that_falls("floor", contacts=True), 0, ["not: fall out", "not: stands inside"]),
@@ -135,10 +143,10 @@ TRIALS = {
     "dimensions_of_g": (lambda: edited("dimensions_of_g", "fluid/constant/g", "[0 1 -2 0 0 0 0]", "[0 1 -1 0 0 0 0]"), 2,
                         ["constant/g: dimensions [0 1 -1 0 0 0 0] are not those of g"]),
     "preconditioner": (lambda: edited("preconditioner", SOLUTION, "preconditioner DIC", "preconditioner DILU"), 2,
-                       ["system/fvSolution: solvers: p_rgh: preconditioner DILU", "not: line -1"]),
+                       ["system/fvSolution:", "solvers: p_rgh: preconditioner: DILU is not known for symmetric matrices", "DIC"]),
     "smoother": (lambda: edited("smoother", SOLUTION, "smoother symGaussSeidel", "smoother smooth", pimple="momentumPredictor yes;"), 2,
-                 ["system/fvSolution: solvers: U.*: smoother smooth", "not: line -1"]),
-    "solver": (lambda: edited("solver", SOLUTION, "solver PCG", "solver PCGG"), 2, ["fvSolution", "PCGG", "not: line -1"]),
+                 ["system/fvSolution", "smoother", "GaussSeidel", "not: line -1"]),
+    "solver": (lambda: edited("solver", SOLUTION, "solver PCG", "solver PCGG"), 2, ["system/fvSolution.solvers.pcorr.*, line 5", "PCGG", "not: line -1"]),
     "one_phase": (lambda: edited("one_phase", "fluid/constant/transportProperties", "(water air)", "(water)"), 2,
                   ["transportProperties:", "phases: 1 of them; give two"]),
 }
