@@ -138,4 +138,10 @@ FAULTS = [
     ("foam_side/solid_fraction.cpp", "subcell.volume * (mean[slot] + rise[i]) * volumes", "subcell.volume * mean[slot] * volumes", AT_REST),
     ("foam_side/solid_fraction.cpp", "solid.by_fluid[main_fluid(liquid, gas, slot)][i] += subcell.volume * rise[i];", "", AT_REST),
     ("dem_side/replacement.cpp", "  contribution.solid_flux = {};\n", "", DROP),
+    # ---- gas beside a thick liquid
+    ("foam_side/stress_of_other.cpp", "std::max(0.0, 1 - own[cell] / all[cell])", "0 * own[cell] / all[cell]", EXTREMES),
+    ("foam_side/particles_to_fine.cpp", "others -= to_vec3(stress[cell]);", "others -= 0 * to_vec3(stress[cell]);", EXTREMES),
+    ("foam_side/fluid_to_bulk.cpp", "w.property * viscosity_k()", "w.property * viscosity()", EXTREMES),
+    ("foam_side/fluid_to_bulk.cpp", "stress_force -= others_stress_share(flow_, k)", "stress_force -= 0 * others_stress_share(flow_, k)", EXTREMES),
+    ("coupler/transfer/bulk_surface.cpp", "near.face_of(liquid, position, seen.normal)", "0.0", {"^unit_bulk_surface$": ["unit_bulk_surface"]}),
 ]

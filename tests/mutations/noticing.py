@@ -58,5 +58,5 @@ SERIES = {r"^vtk_series_test\.": ["vtk_series_test"]}
 SPRINGS = {r"^mock_dem_springs\.": ["mock_dem_springs"]}
 SOFT_PAIR = {"^pair.soft_springs$": PAIR}
 PLACES = {"^faults_places$": [*PAIR, "failing_files"]}
-FLOATING, AT_REST = {"^pair.floating$": PAIR}, {"^pair.beads_at_rest$": PAIR}
+FLOATING, AT_REST, EXTREMES = {"^pair.floating$": PAIR}, {"^pair.beads_at_rest$": PAIR}, {"^pair.extremes$": PAIR}
 CLOSED_RANKS, TURBULENT_RANKS, NEW_FACES, LATER_START = ({f"^pair.{name}$": PAIR} for name in ("closed_ranks", "turbulent_ranks", "new_faces", "later_start"))

@@ -2,9 +2,13 @@
 """Beads fall into water, one thing at a time driven to an extreme, then several at once.
 
 Nothing is exact here but what always holds: the run goes to its end, the books close, alpha stays in [0, 1], and
-nobody gains energy, that of fluids and particles together falls. Usage: extremes.py DEMVOF [--long]"""
+nobody gains energy, that of fluids and particles together falls. Beads that fall through gas into a liquid thick enough to
+stop each within its way through a DEM step fall as in any gas until they touch it, and stay there.
+Usage: extremes.py DEMVOF [--long]"""
 import concurrent.futures
 import itertools
+import math
+import random
 import re
 
 import numpy
@@ -95,9 +99,80 @@ def build(name, changes):
     return case
 
 
-def simulate(demvof, name, changes):
+# Beads of 3 mm and 2500 kg/m3 fall from the gas into a thick liquid: fine cells of 5 mm, cut by bulk faces, nu dt/dx2 up
+# to 8e4. count: of beads; 1000 m2/s is the most that a case may have.
+FALL = {"viscosity": 1000.0, "window": 1e-3, "count": 40, "forces": BASE["forces"], "coupling": {}, "pimple": ""}
+ONE = {"count": 1}
+STRESS = {"forces": [*BASE["forces"], "viscous_stress"]}
+FALL_SHORT = {"one": ONE, "forty": {}, "forty, viscous stress": STRESS}
+FALL_LONG = {
+    **FALL_SHORT,
+    **{f"{name}, {nu:g} m2/s, windows of {1e3 * window:g} ms": {**count, "viscosity": nu, "window": window}
+       for name, count in (("one", ONE), ("forty", {})) for nu in (1.0, 10.0, 50.0, 200.0, 1000.0)
+       for window in (1e-4, 2.5e-4, 1e-3, 2e-3)},
+    "forty, viscous stress, 10 m2/s": {**STRESS, "viscosity": 10.0},
+    "forty, added mass": {"forces": ADDED},
+    "forty, concurrent": {"coupling": {"schedule": "concurrent"}},
+    "forty, order 2": {"coupling": {"order": 2}},
+    "forty, three outer correctors": {"pimple": "nOuterCorrectors 3;"},
+    "forty, own windows": {"coupling": {"window": {"tolerance": 1e-3, "shortest": 2e-4, "longest": 2e-3}}},
+    "forty, fluid told at points": {"coupling": {"mapping": {"to_bulk": "cell_point"}}},
+}
+START, TOUCH = 0.0425, 0.0415  # height of the one bead's centre, m: 1 mm above where it meets the liquid
+
+
+def falling(count, diameter=3e-3, density=2500.0):
+    """One, or at random places 1.5 to 20 mm over the liquid."""
+    if count == 1:
+        return [Particle((0.0203, 0.0197, START), diameter, density)]
+    draw, places = random.Random(1), []
+    while len(places) < count:
+        place = (draw.uniform(3e-3, 0.037), draw.uniform(3e-3, 0.037), draw.uniform(0.043, 0.06))
+        if all(math.dist(place, other) > 1.1 * diameter for other in places):
+            places.append(place)
+    return [Particle(place, diameter, density) for place in places]
+
+
+def fall(name, changes):
+    given = {**FALL, **changes}
+    step = 5e-5  # s, of the DEM
+    mass = numpy.pi / 6 * 3e-3**3 * 2500
+    return BoxCase(scratch("extremes") / re.sub(r"\W+", "_", "fall " + name), (WIDTH, WIDTH, HEIGHT), (8, 8, 16), (6, 6, 12),
+                   0.03 if given["count"] == 1 else 0.06, given["window"], liquid=(1000, given["viscosity"]),
+                   gas=(1, 1.48e-5), level=LEVEL, contacts=True, stiffness=0.5 * mass * (numpy.pi / (20 * step))**2,
+                   dem_step=step, forces=given["forces"], coupling=given["coupling"], pimple=given["pimple"],
+                   alpha_controls="nAlphaCorr 2; nAlphaSubCycles 1; cAlpha 1; MULESCorr no; nLimiterIter 10;",
+                   velocity_solver="solver GAMG; smoother symGaussSeidel; tolerance 1e-12; relTol 1e-3;",
+                   tolerance=1e-9, history_interval=2e-3 if "window" in given["coupling"] else given["window"],
+                   particles=falling(given["count"]))
+
+
+def judge_falls(record, runs, long):
+    record.at_most("beads that fall into thick liquid, runs that end with an error", sum(run is None for run in runs.values()), 0)
+    done = {name: run for name, run in runs.items() if run}
+    record.note("beads that fall into thick liquid, runs", len(runs))
+    record.at_most("beads that fall into thick liquid, lost", sum(r.results["particles"]["lost"] for r in done.values()), 0)
+    record.at_most("beads that fall into thick liquid, energy above its start, over it, worst run",
+                   max(rise(run) for run in done.values()), 1.3e-5)
+    weight = numpy.pi / 6 * 3e-3**3 * 2500 * 9.81
+    arrival = math.sqrt(2 * (START - TOUCH) / 9.81)
+    free, after, up = [], [], []
+    for name, run in done.items():
+        if not name.startswith("one"):
+            continue
+        time, momentum = run.history["time"], run.history["particle_momentum_z"]
+        falls, rests = time < 0.95 * arrival, time > arrival + 3 * max(run.history["time"][1], 1e-3)
+        free.append(abs(momentum[falls] / (-weight * (time[falls] + 2.5e-5)) - 1).max())
+        after.append(abs(momentum[rests]).max() / (weight * arrival))
+        up.append(momentum.max() / (weight * arrival))
+    record.at_most("one bead: its fall through the gas, from that of a body in vacuum, relative", max(free), 1.7e-3)
+    record.at_most("one bead: speed three windows after it has touched the liquid, over that on arrival", max(after), 0.05 if long else 5e-3)
+    record.at_most("one bead: highest velocity upwards, over the speed on arrival", max(up), 0)
+
+
+def simulate(demvof, name, case):
     try:
-        return name, build(name, changes).run(demvof)
+        return name, case.run(demvof)
     except RuntimeError:
         return name, None
 
@@ -125,7 +200,9 @@ def main():
         "tests/Alltest --verification -- -R pair.extremes_long" if options.long else "tests/Alltest -- -R 'pair.extremes$'")
     chosen = LONG if options.long else SHORT
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
-        runs = dict(pool.map(lambda item: simulate(options.demvof, *item), chosen.items()))
+        cases = {name: build(name, changes) for name, changes in chosen.items()}
+        falls = {name: fall(name, changes) for name, changes in (FALL_LONG if options.long else FALL_SHORT).items()}
+        runs, fallen = (dict(pool.map(lambda item: simulate(options.demvof, *item), some.items())) for some in (cases, falls))
     held = {name: run for name, run in runs.items() if name not in NOT_HELD}
     record.note("runs", len(runs))
     record.at_most("runs that end with an error", sum(run is None for run in held.values()), 0)
@@ -142,6 +219,7 @@ def main():
             record.note(f"{name}: energy above its start, over it", worst if run else "ended with an error")
         else:
             record.at_most(f"{name}: energy above its start, over it", worst, 0.01, loose="an extreme may give no energy that matters: 1.4e-3 at worst in the long form")
+    judge_falls(record, fallen, options.long)
     momentum_of_everything(record)
     raise SystemExit(record.write())
 
