@@ -35,7 +35,7 @@ void FluidForces::take_out_own_wake(const WakeWidth& width, double largest_diame
 
 void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
   const ParticleArrays particles = dem_.particles();
-  const bool two = !fluids.surface.empty();
+  const bool two = static_cast<bool>(fluids.surface);
   double* const* rows = dem_.particle_rows(rows_name);
   double* const* gradients = gradient_rows();
   for (int i = 0; i < particles.count; ++i) {
@@ -46,18 +46,19 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
           particles.id[i]));
     if (own_wake_width_) require_spread(*own_wake_width_, particles.drag_diameter(i));
     const double volume = particles.volume(i);
-    const CarriedRow before = carried_by(rows, i);
-    CarriedRow row;
+    CarriedRow& row = carried_by(rows, i);
+    // Of the window that left something over.
+    const double waited = row.waited, beta[] = {mean_drag_factor(row, 0), mean_drag_factor(row, 1)};
+    row = {};
     for (int k = 0; k < (two ? 2 : 1); ++k) {
       const FluidAtParticle here = fluids.fluid[k](i);
-      const double beta = mean_drag_factor(before, k);  // of the window that left something over
       CarriedFluid& fluid = row.fluid[k];
       fluid.velocity = here.velocity;
       fluid.density = here.density;
       fluid.viscosity = here.viscosity;
       fluid.void_fraction = here.void_fraction;
       if (parameters_.pressure_gradient) fluid.pressure_force = -volume * here.pressure_gradient;
-      fluid.left_over_force = beta / window * here.left_over_rate;
+      fluid.left_over_force = beta[k] / window * here.left_over_rate;
       row.told += here.density > 0 ? 1 << k : 0;
       row.owed += norm(fluid.left_over_force) > 0 ? 1 << k : 0;
       if (gradients)
@@ -65,14 +66,13 @@ void FluidForces::begin_window(const FluidsAtParticles& fluids, double window) {
             volume * here.gradients.stress_force, here.gradients.acceleration, here.gradients.vorticity, {}};
     }
     if (two) {
-      row.surface = carried_surface(fluids.surface[i], row.fluid[0].velocity);
+      row.surface = carried_surface(fluids.surface(i), row.fluid[0].velocity);
       for (int k = 0; k < 2; ++k)  // told of one fluid only: all of it is there
         if (row.fluid[k].density == 0 && row.fluid[1 - k].density > 0) row.surface = {k == 0 ? 1.0 : 0.0, {}};
     }
-    row.waited = before.waited;
+    row.waited = waited;
     row.known = 1;
     row.alone = alone_in(row);
-    carried_by(rows, i) = row;
   }
   begun_ = true;
   window_ = window;
@@ -90,11 +90,11 @@ void FluidForces::tell_sizes(int k, const std::vector<SizeMix>& sizes) {
     carried_by(rows, static_cast<int>(i)).fluid[k].sizes = sizes[i];
 }
 
-void FluidForces::see_surface(const std::vector<SeenSurface>& surface) {
+void FluidForces::see_surface(const std::function<SeenSurface(int)>& surface) {
   double* const* rows = dem_.particle_rows(rows_name);
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    CarriedRow& row = carried_by(rows, static_cast<int>(i));
-    if (row.waits()) row.surface = carried_surface(surface[i], {});
+  for (int i = 0, count = dem_.particles().count; i < count; ++i) {
+    CarriedRow& row = carried_by(rows, i);
+    if (row.waits()) row.surface = carried_surface(surface(i), {});
   }
 }
 

@@ -6,21 +6,8 @@
 
 namespace demvof {
 
-double FluidForces::mean_drag_factor(const CarriedRow& row, int k) {
-  return row.contacts.evaluations > 0 ? row.fluid[k].drag_factor_sum / row.contacts.evaluations : 0;
-}
-
-double FluidForces::mean_drag_tangent(const CarriedRow& row, int k) {
-  return row.fluid[k].drag_exponent * mean_drag_factor(row, k);
-}
-
 bool FluidForces::moved_by_forces(int i) const {
   return dem_.integrates(i) && !dem_.stream(i).carries;
-}
-
-double FluidForces::held_share(const CarriedRow& row, int i) const {
-  const CarriedContacts& contacts = row.contacts;
-  return moved_by_forces(i) && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
 }
 
 const CarriedRow& FluidForces::carried(int i) const {

@@ -71,7 +71,7 @@ namespace demvof {
 /// The fluids at each local particle at the start of a window: liquid and gas, or one fluid and nothing more.
 struct FluidsAtParticles {
   std::function<FluidAtParticle(int)> fluid[2];  // of local particle i
-  std::vector<SeenSurface> surface;              // empty: one fluid
+  std::function<SeenSurface(int)> surface;       // likewise; empty: one fluid
 };
 
 /// Impulses of one window on this rank's particles, N s.
@@ -117,24 +117,23 @@ class FluidForces {
 
   /// Sets what the surface makes of local particles that felt no fluid yet: at the start, and when they are
   /// new.
-  void see_surface(const std::vector<SeenSurface>& surface);
-  /// What of a particle lies in a fluid that it does not reach on the bulk grid counts in the other one, and
-  /// what it received from that fluid in the window.
-  /// reached(k, i): local particle i reaches a cell with fluid k.
-  void keep_to_reached_fluids(const std::function<bool(int, int)>& reached);
+  void see_surface(const std::function<SeenSurface(int)>& surface);
+  /// For local particles i that reach fluid k alone on the bulk grid: what of them lies in the other one
+  /// counts in k, and what they received from that in the window.
+  auto keep_to(int k) const;  // a function of i
 
   /// What local particle i adds to the bulk grid at the end of the window in fluid k, before weighting. To be
   /// asked for before the next DEM step.
-  std::function<BulkParticles(int)> contributions(int k = 0) const;
+  auto contributions(int k = 0) const;  // a function of i
   /// The same for a window that has not been simulated yet: the drag that the fluid of its start asks for, as
   /// a reference velocity, so that the particles are owed what the fluid gets. After first_half_step().
   std::function<BulkParticles(int)> expected_contributions(int k = 0) const;
 
   /// The same of what holds it.
-  std::function<Support(int)> support(int k = 0) const;
+  auto support(int k = 0) const;
 
   /// Share of the window that local particle i was in contact, -; 0 of one that no force moves.
-  double touching_share(int i) const { return moved_by_forces(i) ? held_share(carried(i), i) : 0; }
+  double touching_share(int i) const { return moved_by_forces(i) ? held_share(carried(i), true) : 0; }
   /// n beta of fluid k over the window, kg/s, with the share of i that lies in it.
   double drag_tangent(int i, int k) const { return mean_drag_tangent(carried(i), k); }
   double window() const { return window_; }  // s; 0 before the first one
@@ -223,10 +222,20 @@ class FluidForces {
   Vec3 lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter, const Vec3& slip);
   Vec3 spin_lift(const CarriedFluid& fluid, const CarriedGradients& gradients, double diameter,
                  const Vec3& spin, const Vec3& slip);
-  static double mean_drag_factor(const CarriedRow& row, int k);
-  static double mean_drag_tangent(const CarriedRow& row, int k);
-  bool moved_by_forces(int i) const;                                      // local particle i, at present
-  double held_share(const CarriedRow& row, int i) const;                  // of the window, in contact
+  static double mean_drag_factor(const CarriedRow& row, int k) {
+    return row.contacts.evaluations > 0 ? row.fluid[k].drag_factor_sum / row.contacts.evaluations : 0;
+  }
+  static double mean_drag_tangent(const CarriedRow& row, int k) {
+    return row.fluid[k].drag_exponent * mean_drag_factor(row, k);
+  }
+  bool moved_by_forces(int i) const;  // local particle i, at present
+  bool moved_by_forces(const ParticleArrays& particles, int i) const {
+    return (particles.in_clump(i) || dem_.integrates_sphere(particles.mask[i])) && !dem_.stream(i).carries;
+  }
+  static double held_share(const CarriedRow& row, bool moved) {  // of the window, in contact
+    const CarriedContacts& contacts = row.contacts;
+    return moved && contacts.evaluations > 0 ? contacts.touching / contacts.evaluations : 1;
+  }
   double added_mass(const CarriedRow& row, int k, double volume) const {  // kg
     return parameters_.added_mass * row.share(k) * row.fluid[k].density * volume;
   }
@@ -247,3 +256,5 @@ class FluidForces {
 };
 
 }  // namespace demvof
+
+#include "dem_side/deposit_rows.hpp"

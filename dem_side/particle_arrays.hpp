@@ -5,6 +5,7 @@
 
 #include "coupler/base/sphere.hpp"
 #include "coupler/base/vec3.hpp"
+#include "coupler/transfer/spheres.hpp"
 #include "dem_side/clumps.hpp"
 
 namespace demvof {
@@ -41,13 +42,11 @@ inline Vec3 vec3(const double* components) {
   return {components[0], components[1], components[2]};
 }
 
-inline std::vector<Vec3> positions(const ParticleArrays& particles) {
-  std::vector<Vec3> result(particles.count);
-  for (int i = 0; i < particles.count; ++i) result[i] = vec3(particles.position[i]);
-  return result;
-}
-inline std::vector<double> radii(const ParticleArrays& particles) {
-  return {particles.radius, particles.radius + particles.count};
+/// LIGGGHTS's rows of coordinates follow each other.
+inline Spheres spheres(const ParticleArrays& particles) {
+  const int count = particles.count;
+  return {count, count > 0 ? reinterpret_cast<const Vec3*>(particles.position[0]) : nullptr,
+          particles.radius};
 }
 /// Of what displaces the fluid as a whole: a sphere, or one of its clump's volume, m.
 inline std::vector<double> whole_radii(const ParticleArrays& particles) {

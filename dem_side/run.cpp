@@ -146,7 +146,16 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   run_stage().set("handshake");
   ParticleEnd link(world, grid.cells(), coupling.time_out);
   Averaging averaging(world.comm(), grid, link.mine(), averaged);
-  const auto weigh = [&] { averaging.weigh(positions(dem.particles()), whole_radii(dem.particles())); };
+  std::vector<double> radii_of_wholes;  // where there are clumps
+  const auto weigh = [&] {
+    const ParticleArrays particles = dem.particles();
+    Spheres places = spheres(particles);
+    if (dem.has_clumps()) {
+      radii_of_wholes = whole_radii(particles);
+      places.radius = radii_of_wholes.data();
+    }
+    averaging.weigh(places);
+  };
   weigh();
   averaging.in(0).deposit(forces.contributions());
   link.handshake(handshake_items(version(), configuration_hash(parameters), dem.script_gravity(), options.out,
@@ -162,27 +171,31 @@ int run_particles(const ProgramOptions& options, const OwnWorld& world) {
   run_stage().set("first exchange");
   averaging.set_openings(link.openings());
   if (plan.fluids > 1) averaging.see(link.surface());
-  const auto surface_at_particles = [&] {
-    return averaging.surface_at(positions(dem.particles()), radii(dem.particles()));
-  };
+  const auto surface_at_particles = [&] { return averaging.surface_at(spheres(dem.particles())); };
   double replaced_volume = 0;  // m3, of this rank
   const auto deposit = [&] {
     weigh();
-    if (plan.fluids > 1) {
-      if (any_rank(forces.waiting_for_fluid() > 0, world)) forces.see_surface(surface_at_particles());
-      forces.keep_to_reached_fluids([&](int k, int i) { return averaging.in(k).reached_by(i); });
-    }
+    if (plan.fluids > 1 && any_rank(forces.waiting_for_fluid() > 0, world))
+      forces.see_surface(surface_at_particles());
     std::vector<CellValues<BulkParticles>> by_fluid;
     replaced_volume = 0;
     for (int k = 0; k < averaging.fluids(); ++k) {
-      const auto contribution = [&, of = forces.contributions(k)](int i) {
+      const auto contribution = [&, of = forces.contributions(k), keep = forces.keep_to(k)](int i) {
+        if (plan.fluids > 1 && !averaging.in(1 - k).reached_by(i)) keep(i);
         BulkParticles here = of(i);
         if (replacement) replaced_volume += replacement->leave_out_replaced(i, here);
         return here;
       };
-      by_fluid.push_back(averaging.in(k).deposit(contribution));
-      if (hands_back_left_over(coupling.exchange))  // uses responses
-        count_support(averaging.in(k).deposit_records<Support>(forces.support(k)), by_fluid.back());
+      AveragingInFluid& in = averaging.in(k);
+      if (hands_back_left_over(coupling.exchange)) {  // uses responses
+        const auto support = in.deposit_with<Support>([&contribution, of = forces.support(k)](int i) {
+          return AveragingInFluid::With<Support>{contribution(i), of(i)};
+        });
+        by_fluid.push_back(in.deposited());
+        count_support(support, by_fluid.back());
+      } else {
+        by_fluid.push_back(in.deposit(contribution));
+      }
     }
     return by_fluid;
   };

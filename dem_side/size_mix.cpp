@@ -13,7 +13,7 @@ struct SizeSums {
 
 std::vector<SizeMix> sizes_around(const ParticleArrays& particles, const FluidForces& forces, int k,
                                   AveragingInFluid& averaging) {
-  const auto around = averaging.sample_records(averaging.deposit_records<SizeSums>([&](int i) {
+  auto around = averaging.sample_records(averaging.deposit_records<SizeSums>([&](int i) {
     const double volume = forces.carried(i).share(k) * particles.volume(i);
     const double diameter = particles.drag_diameter(i);
     return SizeSums{volume, volume / diameter, volume * diameter};

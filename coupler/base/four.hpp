@@ -14,6 +14,12 @@
 #else
 #define DEMVOF_WIDE
 #endif
+// The same for eight doubles. Such processors could round a product and a sum as one, which no others do.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define DEMVOF_WIDEST [[gnu::target("avx512f"), gnu::optimize("fp-contract=off")]]
+#else
+#define DEMVOF_WIDEST
+#endif
 
 namespace demvof {
 
@@ -22,14 +28,22 @@ inline const bool have_wide = __builtin_cpu_supports("avx2") != 0;
 #else
 constexpr bool have_wide = false;
 #endif
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+inline const bool have_widest = __builtin_cpu_supports("avx512f") != 0;
+#else
+constexpr bool have_widest = false;
+#endif
 
 using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
 
-[[gnu::always_inline]] inline void load(Four& four, const double* from) {
-  std::memcpy(&four, from, sizeof(Four));
+template <class Numbers>
+[[gnu::always_inline]] inline void load(Numbers& numbers, const double* from) {
+  std::memcpy(&numbers, from, sizeof(Numbers));
 }
-[[gnu::always_inline]] inline void store(double* to, const Four& four) {
-  std::memcpy(to, &four, sizeof(Four));
+template <class Numbers>
+[[gnu::always_inline]] inline void store(double* to, const Numbers& numbers) {
+  std::memcpy(to, &numbers, sizeof(Numbers));
 }
 
 [[gnu::always_inline]] inline Vec3 xyz(const Four& four) {

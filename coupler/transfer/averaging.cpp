@@ -47,24 +47,63 @@ CellValues<BulkSurface> brought_up_to_date(const CellValues<BulkSurface>& known,
   return now;
 }
 
-/// The bulk cells that a box around a particle meets, indices inside the grid.
-template <class Visit>
-void for_cells_within(const BulkGrid& grid, const Vec3& position, double reach, const Visit& visit) {
-  std::array<int, 3> first, last;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double h = grid.spacing()[axis], low = grid.lower()[axis];
-    first[axis] = static_cast<int>(std::floor((position[axis] - reach - low) / h));
-    last[axis] = static_cast<int>(std::floor((position[axis] + reach - low) / h));
+/// The bulk cells that a box around a particle meets, along each axis; they may lie beyond the grid.
+struct CellBox {
+  CellBox(const BulkGrid& grid, const Vec3& position, double reach) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double h = grid.spacing()[axis], low = grid.lower()[axis];
+      first[axis] = rounded_down((position[axis] - reach - low) / h);
+      last[axis] = rounded_down((position[axis] + reach - low) / h);
+    }
   }
+  static int rounded_down(double x) {
+    const int towards_zero = static_cast<int>(x);
+    return towards_zero - (x < towards_zero);
+  }
+  bool operator==(const CellBox& other) const { return first == other.first && last == other.last; }
+
+  std::array<int, 3> first, last;
+};
+
+/// The cells of a box, as indices inside the grid.
+template <class Visit>
+void for_each_cell(const BulkGrid& grid, const CellBox& box, const Visit& visit) {
   const auto inside = [&grid](int index, int axis) {
     const int n = grid.cells()[axis];
     return grid.periodic()[axis] ? ((index % n) + n) % n : std::clamp(index, 0, n - 1);
   };
-  for (int k = first[2]; k <= last[2]; ++k)
-    for (int j = first[1]; j <= last[1]; ++j)
-      for (int i = first[0]; i <= last[0]; ++i)
+  for (int k = box.first[2]; k <= box.last[2]; ++k)
+    for (int j = box.first[1]; j <= box.last[1]; ++j)
+      for (int i = box.first[0]; i <= box.last[0]; ++i)
         visit(std::array<int, 3>{inside(i, 0), inside(j, 1), inside(k, 2)});
 }
+
+/// Keeps the box of the particle before, which has most often the same one.
+class CellBoxes {
+ public:
+  CellBoxes(const BulkGrid& grid, const Spheres& particles) : grid_(grid), particles_(particles) {}
+  /// Within two radii; visit(box) where it is another one than that of the last call.
+  template <class Visit>
+  void find(int particle, const Visit& visit) {
+    const CellBox box(grid_, particles_.position[particle], 2 * particles_.radius[particle]);
+    if (box_ && *box_ == box) return;
+    box_ = box;
+    visit(box);
+  }
+
+ private:
+  const BulkGrid& grid_;
+  Spheres particles_;
+  std::optional<CellBox> box_;
+};
+
+/// The surface in the bulk cells around the particles of this rank.
+struct NearSurface {
+  CellBlock block;
+  std::vector<BulkSurface> surface;
+
+  const BulkSurface& at(const std::array<int, 3>& ijk) const { return surface[block.slot(block.place(ijk))]; }
+};
 
 }  // namespace
 
@@ -128,64 +167,67 @@ void Averaging::set_shares() {
   for (int fluid = 0; fluid < 2; ++fluid) fluids_[fluid].set_shares(std::move(share[fluid]));
 }
 
-void Averaging::weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
-  find_kernel_weights(grid_, parameters_, positions, radii, weights_);
+void Averaging::weigh(const Spheres& particles) {
+  find_kernel_weights(grid_, parameters_, particles, weights_);
   touched_.emplace(world_, partition_, weights_.cells());
-  if (walled_) mirror_at_walls(grid_, touched_->fetch_from_owners(walls_, BulkWalls{}), positions, weights_);
-  find_outside(positions);
+  if (walled_)
+    mirror_at_walls(grid_, touched_->fetch_from_owners(walls_, BulkWalls{}), particles.position, weights_);
+  find_outside(particles);
   set_shares();
-  for (AveragingInFluid& fluid : fluids_) fluid.weigh(weights_, *touched_, outside_, radii);
+  for (AveragingInFluid& fluid : fluids_) fluid.weigh(weights_, *touched_, outside_, particles.radius);
 }
 
-void Averaging::find_outside(const std::vector<Vec3>& positions) {
-  outside_.assign(positions.size(), 0);
+void Averaging::find_outside(const Spheres& particles) {
+  outside_.assign(static_cast<std::size_t>(particles.count), 0);
   std::vector<double> share;
   if (!all_open_) share = touched_->fetch_from_owners(open_share_, 1.0);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    outside_[i] = beyond_a_wall(grid_, positions[i]);
+  for (int i = 0; i < particles.count; ++i) {
+    const Vec3& position = particles.position[i];
+    outside_[i] = beyond_a_wall(grid_, position);
     if (all_open_ || outside_[i]) continue;
-    const CellId own = grid_.id(grid_.locate(positions[i]));
+    const CellId own = grid_.id(grid_.locate(position));
     const std::vector<CellId>& cells = weights_.cells();
     const auto place = std::lower_bound(cells.begin(), cells.end(), own);
     outside_[i] = place != cells.end() && *place == own && share[place - cells.begin()] == 0;
   }
 }
 
-std::vector<SeenSurface> Averaging::surface_at(const std::vector<Vec3>& positions,
-                                               const std::vector<double>& radii) const {
-  std::vector<SeenSurface> seen(positions.size());
-  if (fluids() == 1) return seen;
+std::function<SeenSurface(int)> Averaging::surface_at(const Spheres& particles) const {
+  if (fluids() == 1) return [](int) { return SeenSurface{}; };
   std::array<int, 3> first = grid_.cells(), last{-1, -1, -1};
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    for_cells_within(grid_, positions[i], 2 * radii[i], [&](const std::array<int, 3>& ijk) {
-      for (int axis = 0; axis < 3; ++axis) {
-        first[axis] = std::min(first[axis], ijk[axis]);
-        last[axis] = std::max(last[axis], ijk[axis]);
-      }
-    });
-  if (positions.empty()) first = {0, 0, 0}, last = {-1, -1, -1};
-  CellBlock block(grid_, first, last);
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    for_cells_within(grid_, positions[i], 2 * radii[i],
-                     [&](const std::array<int, 3>& ijk) { block.mark(block.place(ijk)); });
-  const TouchedCells cells(world_, partition_, block.list_marked());
-  const std::vector<BulkSurface> surface = cells.fetch_from_owners(surface_, BulkSurface{});
-  const auto at = [&](const std::array<int, 3>& ijk) -> const BulkSurface& {
-    return surface[block.slot(block.place(ijk))];
+  CellBoxes boxes(grid_, particles);
+  const auto extend = [&](const std::array<int, 3>& ijk) {
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = std::min(first[axis], ijk[axis]);
+      last[axis] = std::max(last[axis], ijk[axis]);
+    }
   };
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    double least = 1, most = 0;  // liquid in the cells around
-    for_cells_within(grid_, positions[i], 2 * radii[i], [&](const std::array<int, 3>& ijk) {
-      const double liquid = seen_liquid(at(ijk));
-      least = std::min(least, liquid);
-      most = std::max(most, liquid);
+  for (int i = 0; i < particles.count; ++i)
+    boxes.find(i, [&](const CellBox& box) { for_each_cell(grid_, box, extend); });
+  if (particles.count == 0) first = {0, 0, 0}, last = {-1, -1, -1};
+  CellBlock block(grid_, first, last);
+  CellBoxes again(grid_, particles);
+  for (int i = 0; i < particles.count; ++i)
+    again.find(i, [&](const CellBox& box) {
+      for_each_cell(grid_, box, [&](const std::array<int, 3>& ijk) { block.mark(block.place(ijk)); });
     });
-    if (least == most && (least == 0 || least == 1))
-      seen[i].wetted = least;
-    else
-      seen[i] = see_surface(grid_, positions[i], radii[i], [&](CellId cell) { return at(grid_.ijk(cell)); });
-  }
-  return seen;
+  const TouchedCells cells(world_, partition_, block.list_marked());
+  NearSurface near{std::move(block), cells.fetch_from_owners(surface_, BulkSurface{})};
+  double least = 1, most = 0;  // liquid in the cells around
+  return [this, particles, near = std::move(near), boxes = CellBoxes(grid_, particles), least,
+          most](int i) mutable {
+    boxes.find(i, [&](const CellBox& box) {
+      least = 1, most = 0;
+      for_each_cell(grid_, box, [&](const std::array<int, 3>& ijk) {
+        const double liquid = seen_liquid(near.at(ijk));
+        least = std::min(least, liquid);
+        most = std::max(most, liquid);
+      });
+    });
+    if (least == most && (least == 0 || least == 1)) return SeenSurface{least, {}, 0};
+    return see_surface(grid_, particles.position[i], particles.radius[i],
+                       [&](CellId cell) { return near.at(grid_.ijk(cell)); });
+  };
 }
 
 SolidRelief Averaging::relief() const {

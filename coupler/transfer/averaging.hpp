@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,11 +41,13 @@ class Averaging {
   /// that it has left since; the first time all that hold liquid. Weights follow in the next weigh().
   void see(const CellValues<BulkSurface>& news);
 
-  /// Particles are here from now on, m.
-  void weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii);
-  /// The surface at particles, of one fluid: all wetted.
-  std::vector<SeenSurface> surface_at(const std::vector<Vec3>& positions,
-                                      const std::vector<double>& radii) const;
+  /// Particles are here from now on; radii have to stay there until the next time.
+  void weigh(const Spheres& particles);
+  void weigh(const std::vector<Vec3>& positions, const std::vector<double>& radii) {
+    weigh(Spheres(positions, radii));
+  }
+  /// The surface at a local particle, as long as the particles are there; of one fluid: all wetted.
+  std::function<SeenSurface(int)> surface_at(const Spheres& particles) const;
 
   int fluids() const { return static_cast<int>(fluids_.size()); }
   AveragingInFluid& in(int fluid) { return fluids_[fluid]; }
@@ -63,7 +66,7 @@ class Averaging {
  private:
   bool on_any_rank(bool here) const;
   void set_shares();
-  void find_outside(const std::vector<Vec3>& positions);
+  void find_outside(const Spheres& particles);
 
   MPI_Comm world_;
   BulkGrid grid_;

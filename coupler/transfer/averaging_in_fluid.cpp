@@ -50,11 +50,11 @@ void AveragingInFluid::set_walls(const CellValues<BulkWalls>& walls) {
 }
 
 void AveragingInFluid::weigh(const KernelWeights& weights, const TouchedCells& touched,
-                             const std::vector<char>& outside, const std::vector<double>& radii) {
+                             const std::vector<char>& outside, const double* radii) {
   touched_ = &touched;
   relocation_ = {};
   relief_ = {};
-  outside_ = outside;
+  outside_ = outside.data();
   radii_ = radii;
   if (everywhere_)
     weights_.set(weights);
@@ -72,21 +72,11 @@ double AveragingInFluid::around(int particle, double void_fraction) const {
   return std::min(1.0, void_fraction + own * room);
 }
 
-const CellValues<BulkParticles>& AveragingInFluid::deposit(
-    const std::function<BulkParticles(int)>& contribution) {
-  deposited_ = deposit_records<BulkParticles>([&](int particle) {
-    if (!outside_[particle]) return contribution(particle);
-    BulkParticles left;
-    left.drag_impulse = contribution(particle).drag_impulse;  // of the window in which it left
-    return left;
-  });
-  if (!relocation_.empty()) return deposited_;
+void AveragingInFluid::find_relocation() {
   LimitedSolid limited =
       limit_solid(world_, grid_, partition_, maximum_solid_fraction_, share_, deposited_, walls_);
   relief_ = limited.relief;
   relocation_ = std::move(limited.relocation);
-  if (!relocation_.empty()) deposited_ = relocation_.spread(deposited_);
-  return deposited_;
 }
 
 std::function<FluidAtParticle(int)> AveragingInFluid::sample(
@@ -115,13 +105,13 @@ std::function<FluidAtParticle(int)> AveragingInFluid::sample(
     for (std::size_t i = 0; i < owned.cells.size(); ++i)
       if (owned.values[i].density > 0) steepness.values[i] = {1, gradients->values[i]};
   }
-  const std::vector<GradientSample> slopes =
-      gradients ? fetch(std::move(steepness)) : std::vector<GradientSample>();
-
-  return [this, cells = fetch(std::move(offered)), slopes](int particle) {
+  using Slopes = FluidWeights::Samples<GradientSample>;
+  return [this, means = weights_.samples(fetch(std::move(offered))),
+          slopes = gradients ? std::optional<Slopes>(weights_.samples(fetch(std::move(steepness))))
+                             : std::nullopt](int particle) mutable {
     FluidAtParticle here;
     if (outside_[particle]) return here;
-    const CellSample mean = weights_.sample(cells, particle);
+    const CellSample& mean = means(particle);
     here.left_over_rate = mean.left_over_rate;
     if (!(mean.fluid > 0)) return here;
     here.velocity = mean.velocity / mean.fluid;
@@ -129,8 +119,8 @@ std::function<FluidAtParticle(int)> AveragingInFluid::sample(
     here.density = mean.density / mean.fluid;
     here.viscosity = mean.viscosity / mean.fluid;
     here.void_fraction = around(particle, mean.void_fraction / mean.fluid);
-    if (slopes.empty()) return here;
-    const GradientSample slope = weights_.sample(slopes, particle);
+    if (!slopes) return here;
+    const GradientSample& slope = (*slopes)(particle);
     const BulkFluidGradients& sum = slope.gradients;
     here.gradients = {sum.stress_force / slope.fluid, sum.acceleration / slope.fluid,
                       sum.vorticity / slope.fluid};

@@ -31,24 +31,53 @@ class AveragingInFluid {
   void set_shares(CellValues<double> share);
   /// Faces of this rank's cells that nothing goes through.
   void set_walls(const CellValues<BulkWalls>& walls);
-  /// Where the particles are from here on: weights before shares, and their cells; both must outlive this.
-  /// outside: 1 for a particle without fluid around it; it leaves its impulse, displaces nothing and is told
-  /// of no fluid.
+  /// Where the particles are from here on: weights before shares, their cells, and radii. outside: 1 for a
+  /// particle without fluid around it; it leaves its impulse, displaces nothing and is told of no fluid. All
+  /// of them must outlive this.
   void weigh(const KernelWeights& weights, const TouchedCells& touched, const std::vector<char>& outside,
-             const std::vector<double>& radii);
+             const double* radii);
   /// True for a particle that reaches a cell with this fluid.
   bool reached_by(int particle) const { return weights_.reaches(particle); }
 
   /// Sums the particles' contributions into the bulk cells they reach; what is above the largest solid
   /// fraction of a cell counts in its neighbours, with all that it brings, and is told of the fluid there
-  /// (limit_solid.hpp). contribution: of a local particle. Returned: this rank's cells.
-  const CellValues<BulkParticles>& deposit(const std::function<BulkParticles(int)>& contribution);
+  /// (limit_solid.hpp). contribution: BulkParticles of a local particle. Returned: this rank's cells.
+  template <class Contribution>
+  const CellValues<BulkParticles>& deposit(const Contribution& contribution) {
+    deposited_ = sum_up<BulkParticles>([&](int i) { return in_fluid(i, contribution(i)); });
+    if (relocation_.empty()) find_relocation();
+    if (!relocation_.empty()) deposited_ = relocation_.spread(deposited_);
+    return deposited_;
+  }
+  /// The same with more of each particle, in one go; contribution: With<More> of a local particle.
+  template <class More>
+  struct With {
+    BulkParticles particles;
+    More more;
+  };
+  template <class More, class Contribution>
+  CellValues<More> deposit_with(const Contribution& contribution) {
+    const CellValues<With<More>> sums = sum_up<With<More>>([&](int i) {
+      With<More> here = contribution(i);
+      here.particles = in_fluid(i, here.particles);
+      return here;
+    });
+    deposited_ = {sums.cells, {}};
+    CellValues<More> more{sums.cells, {}};
+    for (const With<More>& sum : sums.values) {
+      deposited_.values.push_back(sum.particles);
+      more.values.push_back(sum.more);
+    }
+    if (relocation_.empty()) find_relocation();
+    if (relocation_.empty()) return more;
+    deposited_ = relocation_.spread(deposited_);
+    return relocation_.spread(more);
+  }
   /// Any records in the same way, after the first deposit() at these places. record(i): a T of local particle
   /// i.
   template <class T, class Record>
   CellValues<T> deposit_records(const Record& record) {
-    CellValues<T> owned = touched_->sum_to_owners(weights_.deposit<T>(record));
-    if (diffusion_) owned = diffusion_->spread(std::move(owned));
+    CellValues<T> owned = sum_up<T>(record);
     return relocation_.empty() ? owned : relocation_.spread(owned);
   }
 
@@ -61,7 +90,7 @@ class AveragingInFluid {
   /// Records of this rank's cells at a local particle: their mean, cells without a record counting as T{}.
   template <class T>
   auto sample_records(CellValues<T> owned) const {
-    return [this, cells = fetch(std::move(owned))](int particle) { return weights_.sample(cells, particle); };
+    return weights_.samples(fetch(std::move(owned)));
   }
 
   const CellValues<BulkParticles>& deposited() const { return deposited_; }
@@ -76,8 +105,20 @@ class AveragingInFluid {
   std::vector<T> fetch(CellValues<T> owned) const {
     if (!relocation_.empty()) owned = relocation_.gather(owned);
     if (diffusion_) owned = diffusion_->gather(std::move(owned));
-    return weights_.offered(touched_->fetch_from_owners(owned, T{}));
+    return touched_->fetch_from_owners(owned, T{});
   }
+  template <class T, class Record>
+  CellValues<T> sum_up(const Record& record) const {
+    CellValues<T> owned = touched_->sum_to_owners(weights_.deposit<T>(record));
+    return diffusion_ ? diffusion_->spread(std::move(owned)) : owned;
+  }
+  BulkParticles in_fluid(int particle, const BulkParticles& contribution) const {
+    if (!outside_[particle]) return contribution;
+    BulkParticles left;
+    left.drag_impulse = contribution.drag_impulse;  // of the window in which it left
+    return left;
+  }
+  void find_relocation();
   double around(int particle, double void_fraction) const;
 
   MPI_Comm world_;
@@ -89,8 +130,8 @@ class AveragingInFluid {
   std::optional<Diffusion> diffusion_;
   CellValues<BulkWalls> walls_;
   FluidWeights weights_;
-  std::vector<char> outside_;
-  std::vector<double> radii_;  // m
+  const char* outside_ = nullptr;
+  const double* radii_ = nullptr;  // m
   const TouchedCells* touched_ = nullptr;
   CellValues<BulkParticles> deposited_;
   Relocation relocation_;  // out of full cells, with the particles where they are

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <vector>
+
+#include "coupler/base/four.hpp"
 
 namespace demvof {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 /// erf(z), |z| <= gaussian_cut / sqrt 2, to a unit in the last place of 1: z times the Chebyshev polynomial
 /// of erf(z)/z in z^2, by powers of u = z^2/2.25 - 1; even and odd ones by themselves. No call, so that
 /// several go at the same time.
-inline double erf_within_cut(double z) {
+template <class Number>
+[[gnu::always_inline]] inline void erf_within_cut(const Number& z, Number& erf) {
   static_assert(gaussian_cut == 3.0);
   constexpr double even[] = {0.6440700976502072,     0.13002914047167516,   0.022688198513323637,
                              0.0023133106108676987,  0.0001481200687475723, 6.423722837030391e-06,
@@ -22,14 +24,54 @@ inline double erf_within_cut(double z) {
                             -0.0006172438320103695,  -3.225467011560341e-05, -1.1780098292107017e-06,
                             -3.1648345877795616e-08, -6.505140409967838e-10, -1.0529479792910429e-11,
                             -1.4636124067075394e-13};
-  const double u = z * z * (1 / 2.25) - 1, square = u * u;
-  double evens = even[9], odds = odd[9];
+  const Number u = z * z * (1 / 2.25) - 1, square = u * u;
+  Number evens = even[9] + 0 * u, odds = odd[9] + 0 * u;
 #pragma GCC unroll 9
   for (int k = 8; k >= 0; --k) {
     evens = evens * square + even[k];
     odds = odds * square + odd[k];
   }
-  return z * (evens + u * odds);
+  erf = z * (evens + u * odds);
+}
+
+/// Shares of a particle in cells first, first + 1, ... along three axes, which have counts of them; places
+/// and counts in the first lanes. share: a row of all lanes for each cell.
+[[gnu::always_inline]] inline void gaussian_shares(const double* place, const double* first,
+                                                   const double* counts, const double* scales, int most,
+                                                   double* share) {
+  constexpr double cut = gaussian_cut / 1.4142135623730951;
+  const Four zero{}, low = zero - cut, high = zero + cut;
+  Four end;
+  erf_within_cut(high, end);
+  const Four half = 0.5 / end;
+  Four s, begin, count, scale;
+  load(s, place);
+  load(begin, first);
+  load(count, counts);
+  load(scale, scales);
+  Four below = -end;
+  for (int a = 0; a < most; ++a) {
+    Four above = end;
+    if (a + 1 < most) {  // at the upper face of the cell
+      Four z = (begin + (a + 1.0) - s) * scale;
+      z = z < low ? low : z > high ? high : z;
+      erf_within_cut(z, above);
+      above = above < below ? below : above > end ? end : above;
+      above = zero + (a + 1.0) < count ? above : end;
+    }
+    store(share + 4 * a, (above - below) * half);
+    below = above;
+  }
+}
+DEMVOF_WIDE void gaussian_shares_wide(const double* place, const double* first, const double* counts,
+                                      const double* scales, int most, double* share) {
+  gaussian_shares(place, first, counts, scales, most, share);
+}
+
+/// Of what is not far from 0.
+int rounded_down(double x) {
+  const int towards_zero = static_cast<int>(x);
+  return towards_zero - (x < towards_zero);
 }
 
 }  // namespace
@@ -74,67 +116,68 @@ void AxisCells::reach(double x_min, double x_max, double half_width, int& first,
   last = wraps ? count_ - 1 : static_cast<int>(std::min<double>(high + 1, count_ - 1));
 }
 
-AxisKernel::AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis)
-    : cells_(grid, axis),
-      kernel_(averaging.kernel),
-      width_(averaging.width > 0 ? averaging.width / cells_.spacing() : 0.5),
-      scale_(1.0 / (std::sqrt(2.0) * width_)) {
-  switch (kernel_) {
-    case Kernel::gaussian:
-      half_width_ = gaussian_cut * width_;
-      break;
-    case Kernel::linear:
-    case Kernel::diffusion:
-      half_width_ = 0.5;
-      break;
-    case Kernel::centre:
-    case Kernel::volume:  // sphere_cells.hpp
-      break;
+AxisKernels::AxisKernels(const BulkGrid& grid, const AveragingParameters& averaging)
+    : cells_{AxisCells(grid, 0), AxisCells(grid, 1), AxisCells(grid, 2)}, kernel_(averaging.kernel) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double width = averaging.width > 0 ? averaging.width / cells_[axis].spacing() : 0.5;
+    scale_[axis] = 1.0 / (std::sqrt(2.0) * width);
+    switch (kernel_) {
+      case Kernel::gaussian:
+        half_width_[axis] = gaussian_cut * width;
+        break;
+      case Kernel::linear:
+      case Kernel::diffusion:
+        half_width_[axis] = 0.5;
+        break;
+      case Kernel::centre:
+      case Kernel::volume:  // sphere_cells.hpp
+        break;
+    }
+    // One more than it should be: where a cell begins is known to round-off only.
+    most_cells_ = std::max(most_cells_, static_cast<int>(std::floor(2 * half_width_[axis])) + 3);
   }
-  // One more than it should be: where a cell begins is known to round-off only.
-  most_cells_ = static_cast<int>(std::floor(2 * half_width_)) + 3;
+  unfolded_.resize(4 * static_cast<std::size_t>(most_cells_));
 }
 
-CellSpan AxisKernel::shares(double x, double* share) const {
-  const double s = cells_.place(x);
-  const int last = static_cast<int>(std::floor(s + half_width_));
+std::array<CellSpan, 3> AxisKernels::shares(const Vec3& position, double* share) {
+  assert(kernel_ != Kernel::volume);  // which is no product of three
   const bool hat = kernel_ == Kernel::linear || kernel_ == Kernel::diffusion;
-  const int first = hat ? last - 1 : static_cast<int>(std::floor(s - half_width_));
-  const int count = last - first + 1;
-  switch (kernel_) {
-    case Kernel::centre:
-      share[0] = 1;
-      break;
-    case Kernel::linear:
-    case Kernel::diffusion: {
-      const double upper_share = s + half_width_ - last;
-      share[0] = 1.0 - upper_share;
-      share[1] = upper_share;
-      break;
-    }
-    case Kernel::gaussian: {
-      constexpr double cut = gaussian_cut / 1.4142135623730951;
-      const double end = erf_within_cut(cut), half = 0.5 / end;
-      for (int i = 0; i + 1 < count; ++i)  // up to the upper face of each cell
-        share[i] = erf_within_cut(std::clamp((first + i + 1 - s) * scale_, -cut, cut));
-      double below = -end;
-      for (int i = 0; i < count; ++i) {
-        const double above = i + 1 < count ? std::clamp(share[i], below, end) : end;
-        share[i] = (above - below) * half;
-        below = above;
-      }
-      break;
-    }
-    case Kernel::volume:
-      assert(!"the volume kernel is no product of three");
-      break;
+  double place[4] = {}, begin[4] = {}, counts[4] = {};
+  std::array<CellSpan, 3> spans;
+  int most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    place[axis] = cells_[axis].place(position[axis]);
+    const int last = rounded_down(place[axis] + half_width_[axis]);
+    const int first = hat ? last - 1 : rounded_down(place[axis] - half_width_[axis]);
+    spans[axis] = {first, last - first + 1};
+    begin[axis] = first;
+    counts[axis] = spans[axis].count;
+    most = std::max(most, spans[axis].count);
   }
-  if (cells_.inside(first) && cells_.inside(last)) return {first, count};
-  const CellSpan span = cells_.fold(first, last);
-  const std::vector<double> unfolded(share, share + count);
-  std::fill_n(share, span.count, 0.0);
-  for (int i = 0; i < count; ++i) share[cells_.place_in(span, first + i)] += unfolded[i];
-  return span;
+  double* unfolded = unfolded_.data();
+  if (kernel_ == Kernel::gaussian)
+    (have_wide ? gaussian_shares_wide : gaussian_shares)(place, begin, counts, scale_.data(), most, unfolded);
+  for (int axis = 0; axis < 3 && kernel_ != Kernel::gaussian; ++axis) {
+    unfolded[axis] = 1;
+    if (!hat) continue;
+    const double upper_share = place[axis] + half_width_[axis] - (spans[axis].first + 1);
+    unfolded[axis] = 1.0 - upper_share;
+    unfolded[4 + axis] = upper_share;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    CellSpan& span = spans[axis];
+    const AxisCells& cells = cells_[axis];
+    const int first = span.first, count = span.count;
+    if (cells.inside(first) && cells.inside(first + count - 1)) {
+      for (int i = 0; i < count; ++i) share[i] = unfolded[4 * i + axis];
+    } else {
+      span = cells.fold(first, first + count - 1);
+      std::fill_n(share, span.count, 0.0);
+      for (int i = 0; i < count; ++i) share[cells.place_in(span, first + i)] += unfolded[4 * i + axis];
+    }
+    share += span.count;
+  }
+  return spans;
 }
 
 }  // namespace demvof

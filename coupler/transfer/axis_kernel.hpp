@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "coupler/grid/bulk_grid.hpp"
 #include "coupler/transfer/averaging_parameters.hpp"
 
@@ -45,30 +48,31 @@ class AxisCells {
   bool periodic_;
 };
 
-/// An averaging kernel along one axis of the bulk grid; these kernels are products of three of them.
+/// An averaging kernel as the product of one along each axis of the bulk grid.
 ///
 ///   centre    share 1 in the cell of the particle
 ///   linear    hat function through the two nearest cell centres; what `diffusion` diffuses, too
 ///   gaussian  integral over the cell of exp(-(x - x_p)^2 / (2 width^2)), cut at gaussian_cut widths.
 ///             The cut moves with the particle, so that a cell is entered and left with share 0:
 ///             the shares are continuous in the particle's position, exactly.
-class AxisKernel {
+class AxisKernels {
  public:
-  AxisKernel(const BulkGrid& grid, const AveragingParameters& averaging, int axis);
+  AxisKernels(const BulkGrid& grid, const AveragingParameters& averaging);
 
-  /// Shares of a particle in the cells that it reaches, each once; they add up to 1. share: with room for
-  /// most_cells().
-  CellSpan shares(double x, double* share) const;
-  int most_cells() const { return most_cells_; }
+  /// Shares of a particle in the cells that it reaches along x, y, z, one axis after the other, each cell
+  /// once; those of an axis add up to 1. share: with room for most_shares().
+  std::array<CellSpan, 3> shares(const Vec3& position, double* share);
+  int most_shares() const { return 3 * most_cells_; }
   /// Farthest distance between a particle and a cell it touches, in cells.
-  double half_width() const { return half_width_; }
+  const std::array<double, 3>& half_width() const { return half_width_; }
 
  private:
-  AxisCells cells_;
+  std::array<AxisCells, 3> cells_;
   Kernel kernel_;
-  double width_, scale_;  // of the Gaussian, in cells; 1/(sqrt 2 width)
-  double half_width_ = 0;
-  int most_cells_;
+  std::array<double, 4> scale_{};  // of the Gaussian, 1/(sqrt 2 width), width in cells
+  std::array<double, 3> half_width_{};
+  int most_cells_ = 0;            // along an axis
+  std::vector<double> unfolded_;  // shares of all axes in each cell in turn, before walls and periods
 };
 
 }  // namespace demvof

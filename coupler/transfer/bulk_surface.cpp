@@ -104,29 +104,45 @@ const std::array<GaussPoint, 12>& gauss_points() {
   return points;
 }
 
+/// A line through the unit sphere along an axis, with its place on the other two.
+struct Column {
+  double across[2], half_length, weight;  // weight: times the length, proportional to half_length
+};
+constexpr int angles = 16;
+const std::array<Column, 12 * angles>& columns() {
+  static const std::array<Column, 12 * angles> columns = [] {
+    std::array<Column, 12 * angles> all{};
+    auto* next = all.begin();
+    for (const GaussPoint& s : gauss_points())
+      for (int m = 0; m < angles; ++m) {
+        const double r = std::sqrt(1 - s.place * s.place), angle = 2 * pi * (m + 0.5) / angles;
+        *next++ = {{r * std::cos(angle), r * std::sin(angle)}, s.place, s.weight * s.place};
+      }
+    return all;
+  }();
+  return columns;
+}
+
 double wetted_share(const Neighbourhood& near, const Vec3& position, double radius, int axis) {
-  constexpr int angles = 16;
   const int across[] = {(axis + 1) % 3, (axis + 2) % 3};
   double wet = 0, whole = 0;
-  for (const GaussPoint& s : gauss_points())
-    for (int m = 0; m < angles; ++m) {
-      const double r = radius * std::sqrt(1 - s.place * s.place), angle = 2 * pi * (m + 0.5) / angles;
-      const double weight = s.weight * s.place;  // times the length, proportional to s
-      std::array<double, 3> point{position.x, position.y, position.z};
-      point[across[0]] += r * std::cos(angle);
-      point[across[1]] += r * std::sin(angle);
-      const double bottom = point[axis] - radius * s.place, top = point[axis] + radius * s.place;
-      std::array<int, 3> ijk{};
-      for (const int other : across) ijk[other] = near.index(point[other], other);
-      const Vec3 at{point[0], point[1], point[2]};
-      for (int i = near.index(bottom, axis); near.face(i, axis) < top; ++i) {
-        const double low = std::max(bottom, near.face(i, axis)), high = std::min(top, near.face(i + 1, axis));
-        if (high <= low) continue;
-        ijk[axis] = i;
-        wet += weight * wet_length(near.at(ijk), at, axis, low, high);
-      }
-      whole += weight * (top - bottom);
+  for (const Column& column : columns()) {
+    std::array<double, 3> point{position.x, position.y, position.z};
+    point[across[0]] += radius * column.across[0];
+    point[across[1]] += radius * column.across[1];
+    const double bottom = point[axis] - radius * column.half_length;
+    const double top = point[axis] + radius * column.half_length;
+    std::array<int, 3> ijk{};
+    for (const int other : across) ijk[other] = near.index(point[other], other);
+    const Vec3 at{point[0], point[1], point[2]};
+    for (int i = near.index(bottom, axis); near.face(i, axis) < top; ++i) {
+      const double low = std::max(bottom, near.face(i, axis)), high = std::min(top, near.face(i + 1, axis));
+      if (high <= low) continue;
+      ijk[axis] = i;
+      wet += column.weight * wet_length(near.at(ijk), at, axis, low, high);
     }
+    whole += column.weight * (top - bottom);
+  }
   return wet / whole;
 }
 

@@ -54,33 +54,34 @@ class Walk {
 
 }  // namespace
 
-void mirror_at_walls(const BulkGrid& grid, const std::vector<BulkWalls>& walls,
-                     const std::vector<Vec3>& positions, KernelWeights& weights) {
+void mirror_at_walls(const BulkGrid& grid, const std::vector<BulkWalls>& walls, const Vec3* positions,
+                     KernelWeights& weights) {
   const std::vector<CellId>& cells = weights.cells();
   const Walk walk(grid, cells, walls);
   std::vector<int> slots;
-  for (int particle = 0; particle < weights.particles(); ++particle) {
-    slots.clear();
-    bool beside_wall = false;
-    weights.for_each_cell(particle, [&](int slot, double) {
-      slots.push_back(slot);
-      beside_wall |= walls[slot].x > 0 || walls[slot].y > 0 || walls[slot].z > 0;
-    });
-    if (!beside_wall) continue;
-    const std::array<int, 3> own = grid.locate(positions[particle]);
-    double* weight = weights.single(particle);
+  const auto has_wall = [&walls](int slot) {
+    return walls[slot].x > 0 || walls[slot].y > 0 || walls[slot].z > 0;
+  };
+  for (std::size_t n = 0; n < weights.groups().size(); ++n) {
+    const KernelWeights::Group group = weights.groups()[n];
+    weights.find_slots(group, slots);
+    if (std::none_of(slots.begin(), slots.end(), has_wall)) continue;
+    const auto none = static_cast<std::ptrdiff_t>(slots.size());
     const auto entry_of = [&](CellId cell) {
       return std::find_if(slots.begin(), slots.end(), [&](int slot) { return cells[slot] == cell; }) -
              slots.begin();
     };
-    const auto none = static_cast<std::ptrdiff_t>(slots.size());
-    for (std::ptrdiff_t entry = 0; entry < none; ++entry) {
-      const CellId end = walk.end(own, grid.ijk(cells[slots[entry]]));
-      if (end == cells[slots[entry]]) continue;
-      std::ptrdiff_t target = entry_of(end);
-      if (target == none) target = entry_of(grid.id(own));  // mirrored farther than the kernel reaches here
-      if (target == none) continue;
-      weight[target] += std::exchange(weight[entry], 0.0);
+    double* weight = weights.single(n);
+    for (int i = 0; i < group.count; ++i, weight += none) {
+      const std::array<int, 3> own = grid.locate(positions[group.first + i]);
+      for (std::ptrdiff_t entry = 0; entry < none; ++entry) {
+        const CellId end = walk.end(own, grid.ijk(cells[slots[entry]]));
+        if (end == cells[slots[entry]]) continue;
+        std::ptrdiff_t target = entry_of(end);
+        if (target == none) target = entry_of(grid.id(own));  // mirrored farther than the kernel reaches here
+        if (target == none) continue;
+        weight[target] += std::exchange(weight[entry], 0.0);
+      }
     }
   }
 }

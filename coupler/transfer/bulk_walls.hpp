@@ -26,7 +26,7 @@ struct Openings {
 /// Takes the kernels' weights back that lie beyond a wall, as their mirror images: shares still add up to 1,
 /// and particles spread evenly up to a wall stay even. The way to a cell leads from the particle's own along
 /// x, then y, then z. walls: of the touched cells. positions: m, one per particle.
-void mirror_at_walls(const BulkGrid& grid, const std::vector<BulkWalls>& walls,
-                     const std::vector<Vec3>& positions, KernelWeights& weights);
+void mirror_at_walls(const BulkGrid& grid, const std::vector<BulkWalls>& walls, const Vec3* positions,
+                     KernelWeights& weights);
 
 }  // namespace demvof

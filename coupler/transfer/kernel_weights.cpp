@@ -13,12 +13,12 @@ namespace demvof {
 namespace {
 
 /// half_widths: farthest reach of a particle along each axis, in cells.
-CellBlock reachable_block(const BulkGrid& grid, const std::vector<Vec3>& positions,
+CellBlock reachable_block(const BulkGrid& grid, const Spheres& particles,
                           const std::array<double, 3>& half_widths) {
   std::array<int, 3> first, last;
   for (int axis = 0; axis < 3; ++axis) {
-    double x_min = positions.front()[axis], x_max = x_min;
-    for (const Vec3& position : positions) {
+    double x_min = (*particles.begin())[axis], x_max = x_min;
+    for (const Vec3& position : particles) {
       x_min = std::min(x_min, position[axis]);
       x_max = std::max(x_max, position[axis]);
     }
@@ -27,126 +27,164 @@ CellBlock reachable_block(const BulkGrid& grid, const std::vector<Vec3>& positio
   return CellBlock(grid, first, last);
 }
 
-void add_spheres(const BulkGrid& grid, const std::vector<Vec3>& positions, const std::vector<double>& radii,
-                 KernelWeights& weights) {
-  const double largest = *std::max_element(radii.begin(), radii.end());
+void add_spheres(const BulkGrid& grid, const Spheres& particles, KernelWeights& weights) {
+  const double largest = *std::max_element(particles.radius, particles.radius + particles.count);
   const Vec3 h = grid.spacing();
-  weights.begin(reachable_block(grid, positions, {largest / h.x, largest / h.y, largest / h.z}),
-                positions.size(), 8 * positions.size());
+  weights.begin(reachable_block(grid, particles, {largest / h.x, largest / h.y, largest / h.z}),
+                8 * static_cast<std::size_t>(particles.count));
   SphereCells sphere(grid);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    sphere.find(positions[i], radii[i]);
+  for (int i = 0; i < particles.count; ++i) {
+    sphere.find(particles.position[i], particles.radius[i]);
     std::copy(sphere.shares().begin(), sphere.shares().end(), weights.room(sphere.shares().size()));
     weights.add(sphere.spans(), false);
   }
 }
 
-void add_products(const BulkGrid& grid, const AveragingParameters& averaging,
-                  const std::vector<Vec3>& positions, KernelWeights& weights) {
-  const std::array<AxisKernel, 3> kernels{AxisKernel(grid, averaging, 0), AxisKernel(grid, averaging, 1),
-                                          AxisKernel(grid, averaging, 2)};
-  std::size_t most = 0;
-  for (const AxisKernel& kernel : kernels) most += kernel.most_cells();
-  weights.begin(reachable_block(grid, positions,
-                                {kernels[0].half_width(), kernels[1].half_width(), kernels[2].half_width()}),
-                positions.size(), most * positions.size());
-  for (const Vec3& position : positions) {
-    double* share = weights.room(most);
-    std::array<CellSpan, 3> spans;
-    for (int axis = 0; axis < 3; ++axis) {
-      spans[axis] = kernels[axis].shares(position[axis], share);
-      share += spans[axis].count;
-    }
-    weights.add(spans, true);
-  }
+void add_products(const BulkGrid& grid, const AveragingParameters& averaging, const Spheres& particles,
+                  KernelWeights& weights) {
+  AxisKernels kernels(grid, averaging);
+  const std::size_t most = kernels.most_shares();
+  weights.begin(reachable_block(grid, particles, kernels.half_width()), most * particles.count);
+  for (const Vec3& position : particles) weights.add(kernels.shares(position, weights.room(most)), true);
+}
+
+/// Products of the shares of so many particles along three axes, x fastest. Four at once: the last ones go
+/// too far.
+constexpr int beyond = 3;
+[[gnu::always_inline]] inline void find_products(int particles, int nx, int ny, int nz, const double* share,
+                                                 double* weight) {
+  for (int i = 0; i < particles; ++i, share += nx + ny + nz)
+    for (int c = 0; c < nz; ++c)
+      for (int b = 0; b < ny; ++b, weight += nx) {
+        const double factor = share[nx + b] * share[nx + ny + c];
+        for (int a = 0; a < nx; a += 4) {
+          Four x;
+          load(x, share + a);
+          store(weight + a, factor * x);
+        }
+      }
+}
+DEMVOF_WIDE void find_products_wide(int particles, int nx, int ny, int nz, const double* share,
+                                    double* weight) {
+  find_products(particles, nx, ny, nz, share, weight);
 }
 
 }  // namespace
 
-void KernelWeights::begin(CellBlock block, std::size_t particles, std::size_t numbers) {
+void KernelWeights::begin(CellBlock block, std::size_t numbers) {
   block_ = std::move(block);
   cells_.clear();
-  boxes_.clear();
-  boxes_.reserve(particles);
+  groups_.clear();
   used_ = 0;
   if (numbers > numbers_.capacity()) numbers_ = {};  // before there is a larger one
   numbers_.reserve(numbers);
 }
 
 void KernelWeights::add(const std::array<CellSpan, 3>& spans, bool product) {
-  Box box{{}, {}, product, used_};
+  Group one{particles(), 1, {}, {}, product, used_};
   for (int axis = 0; axis < 3; ++axis) {
     assert(spans[axis].count <= std::numeric_limits<std::uint16_t>::max());
-    box.first[axis] = spans[axis].first;
-    box.count[axis] = static_cast<std::uint16_t>(spans[axis].count);
+    one.cell[axis] = spans[axis].first;
+    one.cells[axis] = static_cast<std::uint16_t>(spans[axis].count);
   }
-  const std::size_t x = box.count[0], y = box.count[1], z = box.count[2];
-  used_ += product ? x + y + z : x * y * z;
-  if (boxes_.empty() || box.first != boxes_.back().first || box.count != boxes_.back().count) mark(box);
-  boxes_.push_back(box);
+  used_ += one.numbers_of_each();
+  const bool same = !groups_.empty() && one.cell == groups_.back().cell && one.cells == groups_.back().cells;
+  if (!same) mark(one);
+  if (same && groups_.back().count < most_in_a_group)
+    ++groups_.back().count;
+  else
+    groups_.push_back(one);
 }
 
-void KernelWeights::mark(const Box& box) {
-  for (int c = 0; c < box.count[2]; ++c)
-    for (int b = 0; b < box.count[1]; ++b)
-      for (int a = 0; a < box.count[0]; ++a)
+void KernelWeights::mark(const Group& group) {
+  for (int c = 0; c < group.cells[2]; ++c)
+    for (int b = 0; b < group.cells[1]; ++b)
+      for (int a = 0; a < group.cells[0]; ++a)
         block_.mark(block_.place(
-            {wrapped(box.first[0] + a, 0), wrapped(box.first[1] + b, 1), wrapped(box.first[2] + c, 2)}));
-}
-
-void KernelWeights::find_runs(int particle, std::vector<RowRun>& runs) const {
-  const Box& box = boxes_[particle];
-  const auto [x_first, y_first, z_first] = box.first;
-  const auto [x_cells, y_cells, z_cells] = grid_.cells();
-  const int nx = box.count[0], ny = box.count[1], nz = box.count[2];
-  const int before_end = std::min(nx, x_cells - x_first);  // the others follow from 0 on
-  const std::ptrdiff_t y_step = block_.y_step(), z_step = block_.z_step();
-  const double* const share = &numbers_[box.numbers];
-  runs.resize((before_end < nx ? 2 : 1) * std::size_t(ny) * nz);
-  RowRun* run = runs.data();
-  auto plane = static_cast<std::ptrdiff_t>(block_.place(box.first));
-  for (int c = 0; c < nz; ++c, plane += z_step) {
-    if (z_first + c == z_cells) plane -= z_cells * z_step;
-    std::ptrdiff_t row = plane;
-    for (int b = 0; b < ny; ++b, row += y_step) {
-      if (y_first + b == y_cells) row -= y_cells * y_step;
-      const double factor = box.product ? share[nx + b] * share[nx + ny + c] : 1;
-      const double* x = box.product ? share : share + nx * (b + ny * c);
-      *run++ = {block_.slot(row), before_end, x, factor};
-      if (before_end < nx) *run++ = {block_.slot(row - x_first), nx - before_end, x + before_end, factor};
-    }
-  }
+            {wrapped(group.cell[0] + a, 0), wrapped(group.cell[1] + b, 1), wrapped(group.cell[2] + c, 2)}));
 }
 
 void KernelWeights::finish() {
   cells_ = block_.list_marked();
 }
 
-double* KernelWeights::single(int particle) {
-  if (boxes_[particle].product) {
-    Box box = boxes_[particle];
-    box.numbers = used_;
-    box.product = false;
-    double* weight = room(std::size_t(box.count[0]) * box.count[1] * box.count[2]);
-    for_each_cell(particle, [&](int, double w) {
-      *weight++ = w;
-      ++used_;
-    });
-    boxes_[particle] = box;
+const KernelWeights::Group& KernelWeights::group_of(int particle) const {
+  for (std::size_t next = last_asked_; next < std::min(last_asked_ + 2, groups_.size()); ++next) {
+    const Group& group = groups_[next];
+    if (particle < group.first || particle >= group.first + group.count) continue;
+    last_asked_ = next;
+    return group;
   }
-  return &numbers_[boxes_[particle].numbers];
+  const auto after = std::upper_bound(groups_.begin(), groups_.end(), particle,
+                                      [](int i, const Group& group) { return i < group.first; });
+  last_asked_ = static_cast<std::size_t>(after - 1 - groups_.begin());
+  return groups_[last_asked_];
 }
 
-void find_kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging,
-                         const std::vector<Vec3>& positions, const std::vector<double>& radii,
+void KernelWeights::find_slots(const Group& group, std::vector<int>& slots) const {
+  slots.resize(static_cast<std::size_t>(group.cell_count()));
+  int* slot = slots.data();
+  const int nx = group.cells[0], before_end = std::min(nx, grid_.cells()[0] - group.cell[0]);
+  for (int c = 0; c < group.cells[2]; ++c)
+    for (int b = 0; b < group.cells[1]; ++b) {
+      // All of the box are touched: along x slots follow each other.
+      const std::array<int, 3> row{group.cell[0], wrapped(group.cell[1] + b, 1),
+                                   wrapped(group.cell[2] + c, 2)};
+      const int first = block_.slot(block_.place(row));
+      for (int a = 0; a < before_end; ++a) *slot++ = first + a;
+      if (before_end == nx) continue;
+      const int next = block_.slot(block_.place({0, row[1], row[2]}));
+      for (int a = before_end; a < nx; ++a) *slot++ = next + a - before_end;
+    }
+}
+
+WeightBlock KernelWeights::find(const Group& group, Found& room) const {
+  find_slots(group, room.slots);
+  const int cells = group.cell_count();
+  if (!group.product) return {group.count, cells, room.slots.data(), &numbers_[group.numbers]};
+  room.weights.resize(static_cast<std::size_t>(group.count) * cells + beyond);
+  (have_wide ? find_products_wide : find_products)(group.count, group.cells[0], group.cells[1],
+                                                   group.cells[2], &numbers_[group.numbers],
+                                                   room.weights.data());
+  return {group.count, cells, room.slots.data(), room.weights.data()};
+}
+
+double KernelWeights::squares(int particle) const {
+  const Group& group = group_of(particle);
+  const double* share = &numbers_[group.numbers + (particle - group.first) * group.numbers_of_each()];
+  const auto sum_over = [&share](int count) {
+    double sum = 0;
+    for (const double* end = share + count; share != end; ++share) sum += *share * *share;
+    return sum;
+  };
+  if (!group.product) return sum_over(group.cell_count());
+  double product = 1;
+  for (const int count : group.cells) product *= sum_over(count);
+  return product;
+}
+
+double* KernelWeights::single(std::size_t group) {
+  Group& here = groups_[group];
+  if (here.product) {
+    Found room;
+    find(here, room);
+    const std::size_t weights = here.count * static_cast<std::size_t>(here.cell_count());
+    std::copy_n(room.weights.begin(), weights, this->room(weights));
+    here.numbers = used_;
+    here.product = false;
+    used_ += weights;
+  }
+  return &numbers_[here.numbers];
+}
+
+void find_kernel_weights(const BulkGrid& grid, const AveragingParameters& averaging, const Spheres& particles,
                          KernelWeights& weights) {
-  assert(radii.size() == positions.size());
-  if (positions.empty())
-    weights.begin(CellBlock(grid, {0, 0, 0}, {-1, -1, -1}), 0, 0);
+  if (particles.count == 0)
+    weights.begin(CellBlock(grid, {0, 0, 0}, {-1, -1, -1}), 0);
   else if (averaging.kernel == Kernel::volume)
-    add_spheres(grid, positions, radii, weights);
+    add_spheres(grid, particles, weights);
   else
-    add_products(grid, averaging, positions, weights);
+    add_products(grid, averaging, particles, weights);
   weights.finish();
 }
 

@@ -1,101 +1,118 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Sums of rows of doubles with the weights of a particle, in registers as wide as the processor has
-// (base/four.hpp).
+// Sums of rows of doubles with the weights of particles, in registers as wide as the processor has
+// (base/four.hpp): rows are whole numbers of eights.
 
 #include "coupler/base/four.hpp"
 
 namespace demvof {
 
-/// Rows that follow each other from first on: row a has weight factor share[a].
-struct RowRun {
-  int first, count;
-  const double* share;
-  double factor;
+/// Weights of particles that reach the same cells, one particle after the other.
+struct WeightBlock {
+  int particles, cells;
+  const int* slot;       // of each cell
+  const double* weight;  // of particle i in cell c: weight[i * cells + c]
 };
 
 namespace row_sums {
 
-/// Four at a time, and what is left.
-template <int width>
+/// As many at a time as go into one register.
+template <class Numbers, int width>
 struct Row {
-  static constexpr int fours = width / 4, rest = width % 4;
-  Four four[fours + 1] = {};
-  double one[rest + 1] = {};
+  static constexpr int in_one = sizeof(Numbers) / sizeof(double), count = width / in_one;
+  static_assert(width % in_one == 0);
+  Numbers numbers[count] = {};
 
   [[gnu::always_inline]] void load(const double* from) {
 #pragma GCC unroll 8
-    for (int i = 0; i < fours; ++i) demvof::load(four[i], from + 4 * i);
-#pragma GCC unroll 4
-    for (int i = 0; i < rest; ++i) one[i] = from[4 * fours + i];
+    for (int i = 0; i < count; ++i) demvof::load(numbers[i], from + in_one * i);
   }
   [[gnu::always_inline]] void store(double* to) const {
 #pragma GCC unroll 8
-    for (int i = 0; i < fours; ++i) demvof::store(to + 4 * i, four[i]);
-#pragma GCC unroll 4
-    for (int i = 0; i < rest; ++i) to[4 * fours + i] = one[i];
+    for (int i = 0; i < count; ++i) demvof::store(to + in_one * i, numbers[i]);
   }
   [[gnu::always_inline]] void add(double factor, const Row& row) {
 #pragma GCC unroll 8
-    for (int i = 0; i < fours; ++i) four[i] += factor * row.four[i];
-#pragma GCC unroll 4
-    for (int i = 0; i < rest; ++i) one[i] += factor * row.one[i];
+    for (int i = 0; i < count; ++i) numbers[i] += factor * row.numbers[i];
   }
 };
 
-template <int width>
-[[gnu::always_inline]] inline void spread(const RowRun* runs, int count, const double* from, double* rows) {
-  Row<width> row, sum;
-  row.load(from);
-  for (const RowRun* run = runs; run != runs + count; ++run) {
-    double* to = rows + static_cast<long>(run->first) * width;
-    for (int a = 0; a < run->count; ++a, to += width) {
-      sum.load(to);
-      sum.add(run->share[a] * run->factor, row);
-      sum.store(to);
+template <class Numbers, int width>
+[[gnu::always_inline]] inline void spread(const WeightBlock& block, const double* from, double* rows) {
+  for (int cell = 0; cell < block.cells; ++cell) {
+    double* to = rows + static_cast<long>(block.slot[cell]) * width;
+    Row<Numbers, width> sum, row;
+    sum.load(to);
+    const double* next = from;
+    const double* weight = block.weight + cell;
+    for (int i = 0; i < block.particles; ++i, next += width, weight += block.cells) {
+      row.load(next);
+      sum.add(*weight, row);
     }
+    sum.store(to);
   }
 }
 
-template <int width>
-[[gnu::always_inline]] inline void gather(const RowRun* runs, int count, const double* rows, double* to) {
-  Row<width> sum, row;
-  for (const RowRun* run = runs; run != runs + count; ++run) {
-    const double* from = rows + static_cast<long>(run->first) * width;
-    Row<width> along;  // sums that do not wait for each other
-    for (int a = 0; a < run->count; ++a, from += width) {
-      row.load(from);
-      along.add(run->share[a], row);
-    }
-    sum.add(run->factor, along);
+/// For so many particles at once, that do not wait for each other.
+template <class Numbers, int width, int at_once>
+[[gnu::always_inline]] inline void gather_some(const WeightBlock& block, int first, const double* rows,
+                                               double* to) {
+  Row<Numbers, width> sum[at_once], row;
+  const double* weight = block.weight + first * block.cells;
+  for (int cell = 0; cell < block.cells; ++cell) {
+    row.load(rows + static_cast<long>(block.slot[cell]) * width);
+#pragma GCC unroll 4
+    for (int i = 0; i < at_once; ++i) sum[i].add(weight[i * block.cells + cell], row);
   }
-  sum.store(to);
+#pragma GCC unroll 4
+  for (int i = 0; i < at_once; ++i) sum[i].store(to + (first + i) * width);
+}
+
+template <class Numbers, int width>
+[[gnu::always_inline]] inline void gather(const WeightBlock& block, const double* rows, double* to) {
+  constexpr int at_once = 4;
+  int first = 0;
+  for (; first + at_once <= block.particles; first += at_once)
+    gather_some<Numbers, width, at_once>(block, first, rows, to);
+  for (; first < block.particles; ++first) gather_some<Numbers, width, 1>(block, first, rows, to);
 }
 
 template <int width>
-DEMVOF_WIDE void spread_wide(const RowRun* runs, int count, const double* row, double* rows) {
-  spread<width>(runs, count, row, rows);
+DEMVOF_WIDE void spread_wide(const WeightBlock& block, const double* from, double* rows) {
+  spread<Four, width>(block, from, rows);
 }
 template <int width>
-DEMVOF_WIDE void gather_wide(const RowRun* runs, int count, const double* rows, double* row) {
-  gather<width>(runs, count, rows, row);
+DEMVOF_WIDEST void spread_widest(const WeightBlock& block, const double* from, double* rows) {
+  spread<Eight, width>(block, from, rows);
+}
+template <int width>
+DEMVOF_WIDE void gather_wide(const WeightBlock& block, const double* rows, double* to) {
+  gather<Four, width>(block, rows, to);
+}
+template <int width>
+DEMVOF_WIDEST void gather_widest(const WeightBlock& block, const double* rows, double* to) {
+  gather<Eight, width>(block, rows, to);
 }
 
 }  // namespace row_sums
 
-/// rows += weight row, for the rows of all runs.
+/// rows += weight row, for the cells of all particles; from: a row of each particle.
 template <int width>
-void spread_row(const RowRun* runs, int count, const double* row, double* rows) {
-  have_wide ? row_sums::spread_wide<width>(runs, count, row, rows)
-            : row_sums::spread<width>(runs, count, row, rows);
+void spread_rows(const WeightBlock& block, const double* from, double* rows) {
+  using namespace row_sums;
+  (have_widest ? spread_widest<width>
+   : have_wide ? spread_wide<width>
+               : spread<Four, width>)(block, from, rows);
 }
 
-/// row = sum of weight rows.
+/// Sum of weight rows, a row for each particle.
 template <int width>
-void gather_rows(const RowRun* runs, int count, const double* rows, double* row) {
-  have_wide ? row_sums::gather_wide<width>(runs, count, rows, row)
-            : row_sums::gather<width>(runs, count, rows, row);
+void gather_rows(const WeightBlock& block, const double* rows, double* to) {
+  using namespace row_sums;
+  (have_widest ? gather_widest<width>
+   : have_wide ? gather_wide<width>
+               : gather<Four, width>)(block, rows, to);
 }
 
 }  // namespace demvof

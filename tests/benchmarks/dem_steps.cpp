@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
       FluidsAtParticles felt;
       felt.fluid[0] = [&](int) { return mode == "liquid" ? water : none; };
       felt.fluid[1] = [&](int) { return mode == "liquid" ? none : air; };
-      felt.surface.assign(static_cast<std::size_t>(dem.particles().count), {});
+      felt.surface = [](int) { return SeenSurface{}; };
       forces->begin_window(felt, steps * dem.time_step());
       if (n == 0) forces->first_half_step();
     }

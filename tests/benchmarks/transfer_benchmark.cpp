@@ -56,8 +56,10 @@ void sample_rows(benchmark::State& state) {
   FluidWeights weights;
   weights.set(kernels);
   const std::vector<BulkParticles> cells(kernels.cells().size());
-  for (auto _ : state)
-    for (int i = 0; i < particle_count; ++i) benchmark::DoNotOptimize(weights.sample(cells, i));
+  for (auto _ : state) {
+    auto sampled = weights.samples(cells);
+    for (int i = 0; i < particle_count; ++i) benchmark::DoNotOptimize(sampled(i));
+  }
 }
 BENCHMARK(sample_rows)->ArgName("kernel")->DenseRange(0, 4)->Unit(benchmark::kMillisecond);
 

@@ -123,10 +123,9 @@ TEST(DemHistory, MeetsItsSlipOnEntry) {
   liquid.density = rho, liquid.viscosity = mu;
   gas.density = 1, gas.viscosity = 1e-5;
   const auto advance = [&](const demvof::SeenSurface& surface, int steps) {
-    const int count = scene.dem->particles().count;
-    forces.begin_window({{[&](int) { return liquid; }, [&](int) { return gas; }},
-                         std::vector<demvof::SeenSurface>(count, surface)},
-                        steps * step);
+    forces.begin_window(
+        {{[&](int) { return liquid; }, [&](int) { return gas; }}, [&](int) { return surface; }},
+        steps * step);
     scene.dem->run(steps);
     double impulse = forces.impulses().drag.z;
     MPI_Allreduce(MPI_IN_PLACE, &impulse, 1, MPI_DOUBLE, MPI_SUM, scene.dem->world());

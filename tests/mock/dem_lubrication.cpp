@@ -245,13 +245,12 @@ TEST(DemLubrication, KnowsAddedMassAndTheWettedShare) {
     parameters.added_mass = added_mass;
     FluidForces forces(*scene.dem, parameters);
     scene.dem->set_up();
-    const int count = scene.dem->particles().count;
     demvof::SeenSurface surface;
     surface.wetted = wetted;
     const double densities[] = {1000, 1e-9}, viscosities[] = {viscosity, 0.2 * viscosity};
     forces.begin_window(demvof::FluidsAtParticles{{[&](int) { return liquid(viscosities[0], densities[0]); },
                                                    [&](int) { return liquid(viscosities[1], densities[1]); }},
-                                                  std::vector<demvof::SeenSurface>(count, surface)},
+                                                  [&](int) { return surface; }},
                         1e-3);
     forces.first_half_step();
     scene.dem->run(300);

@@ -5,7 +5,7 @@ CLOSURES = {f"^unit_{name}$": [f"unit_{name}"] for name in ("drag", "closures", 
 EXCHANGE = {f"^unit_{name}$": [f"unit_{name}"] for name in ("exchange_stability", "added_mass_exchange", "relaxation",
                                                             "ledger", "books", "crossing")}
 AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_test.2$": ["limit_solid_test"],
-             "^unit_kernel_weights$": ["unit_kernel_weights"]}
+             "^unit_kernel_weights$": ["unit_kernel_weights"], "^unit_row_sums$": ["unit_row_sums"]}
 MAPPING = {"^unit_mesh_cut$": ["unit_mesh_cut"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
 FORCES = {r"^mock_dem_forces\..*\.1$": ["mock_dem_forces"], "^mock_dem_settling.1$": ["dem_side", "mock_fluid"]}
 START = {r"^mock_dem_start\..*\.1$": ["mock_dem_start"]}

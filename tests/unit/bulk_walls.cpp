@@ -21,7 +21,7 @@ std::map<std::array<int, 3>, double> shares(const BulkGrid& grid, Kernel kernel,
     for (std::size_t slot = 0; slot < walls.size(); ++slot)
       if (weights.cells()[slot] == grid.id(cell))
         (axis == 0 ? walls[slot].x : axis == 1 ? walls[slot].y : walls[slot].z) = 1;
-  mirror_at_walls(grid, walls, {position}, weights);
+  mirror_at_walls(grid, walls, &position, weights);
   std::map<std::array<int, 3>, double> result;
   double sum = 0;
   weights.for_each_cell(0, [&](int slot, double weight) {
@@ -106,7 +106,7 @@ TEST(BulkWalls, NoWallsNoChange) {
     return found;
   };
   const std::vector<double> before = all();
-  mirror_at_walls(grid, std::vector<BulkWalls>(weights.cells().size()), positions, weights);
+  mirror_at_walls(grid, std::vector<BulkWalls>(weights.cells().size()), positions.data(), weights);
   EXPECT_EQ(all(), before);
 }
 

@@ -144,25 +144,46 @@ TEST(KernelWeights, ProductsOfTheAxesWhereverTheCellsStand) {
 
 TEST(KernelWeights, SingleWeightsAreTheProductUntilChanged) {
   const BulkGrid grid({0, 0, 0}, {3, 4, 7}, {3, 4, 7}, {true, false, false});
-  const std::vector<Vec3> points{{0.1, 0.2, 3.3}, {2.9, 2.2, 6.9}, {1.5, 2, 3}};
+  // The second and third have the same cells.
+  const std::vector<Vec3> points{{0.1, 0.2, 3.3}, {2.9, 2.2, 6.9}, {2.8, 2.1, 6.8}, {1.5, 2, 3}};
   KernelWeights weights = kernel_weights(grid, averaging(Kernel::gaussian), points, radii(points, 1));
+  ASSERT_EQ(weights.groups().size(), 3);
   const auto all = [&weights](int particle) {
     std::vector<std::pair<int, double>> found;
     weights.for_each_cell(particle, [&](int slot, double weight) { found.emplace_back(slot, weight); });
     return found;
   };
-  const auto first = all(0), second = all(1), third = all(2);
+  const auto first = all(0), second = all(1), third = all(2), fourth = all(3);
   double* single = weights.single(1);
   EXPECT_EQ(all(1), second);
-  single[2] = 7;
+  EXPECT_EQ(all(2), third);
+  single[third.size() + 2] = 7;
   EXPECT_EQ(weights.single(1), single) << "they are single already";
-  auto changed = second;
+  auto changed = third;
   changed[2].second = 7;
-  EXPECT_EQ(all(1), changed);
+  EXPECT_EQ(all(1), second);
+  EXPECT_EQ(all(2), changed);
   EXPECT_EQ(all(0), first);
   weights.single(2);
-  EXPECT_EQ(all(2), third);
-  EXPECT_EQ(all(1), changed);
+  EXPECT_EQ(all(3), fourth);
+  EXPECT_EQ(all(2), changed);
+}
+
+/// Particles of the same cells are one group, up to the largest that there is.
+TEST(KernelWeights, ParticlesWithTheSameCellsAreGroups) {
+  const BulkGrid grid({0, 0, 0}, {4, 4, 4}, {4, 4, 4});
+  std::vector<Vec3> points(KernelWeights::most_in_a_group + 3, Vec3{1.2, 1.3, 1.4});
+  points.push_back({1.7, 1.3, 1.4});
+  points.push_back({1.2, 1.3, 1.4});
+  const KernelWeights weights = kernel_weights(grid, averaging(Kernel::linear), points, radii(points, 1));
+  std::vector<std::pair<int, int>> found;
+  for (const KernelWeights::Group& group : weights.groups()) found.emplace_back(group.first, group.count);
+  constexpr int most = KernelWeights::most_in_a_group;
+  EXPECT_EQ(found, (std::vector<std::pair<int, int>>{{0, most}, {most, 3}, {most + 3, 1}, {most + 4, 1}}));
+  for (int i = 0; i < weights.particles(); ++i) {
+    const KernelWeights::Group& group = weights.group_of(i);
+    EXPECT_TRUE(group.first <= i && i < group.first + group.count);
+  }
 }
 
 TEST(KernelWeights, CentreGivesAllToTheCellOfTheParticle) {
@@ -202,7 +223,8 @@ TEST(KernelWeights, LinearKernelSamplesLinearFieldsExactly) {
   for (const CellId cell : weights.cells()) cell_values.push_back(field(grid.cell_centre(grid.ijk(cell))));
   FluidWeights all;
   all.set(weights);
-  for (int i = 0; i < weights.particles(); ++i) values[i] = all.sample(cell_values, i);
+  auto sampled = all.samples(cell_values);
+  for (int i = 0; i < weights.particles(); ++i) values[i] = sampled(i);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(values[i], field(points[i]), 2e-14);
 }
 
@@ -306,41 +328,6 @@ double dot(const Row& x, const Row& y) {
   return x.a * y.a + x.b * y.b + x.c * y.c + x.d * y.d + x.e * y.e + x.f * y.f;
 }
 
-template <int width>
-void expect_same_sums_in_wide_registers() {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<> uniform(-1, 1);
-  std::vector<double> rows(9 * width), row(width), share(4);
-  for (std::vector<double>* numbers : {&rows, &row, &share})
-    for (double& number : *numbers) number = uniform(random);
-  const RowRun runs[] = {{0, 3, share.data(), 0.3}, {4, 4, share.data(), -1.7}, {8, 1, &share[1], 1}};
-  std::vector<double> spread = rows, wide = rows, expected = rows, sum(width), wide_sum(width);
-  row_sums::spread<width>(runs, 3, row.data(), spread.data());
-  spread_row<width>(runs, 3, row.data(), wide.data());
-  row_sums::gather<width>(runs, 3, rows.data(), sum.data());
-  gather_rows<width>(runs, 3, rows.data(), wide_sum.data());
-  EXPECT_EQ(spread, wide);
-  EXPECT_EQ(sum, wide_sum);
-  for (int i = 0; i < width; ++i) {
-    double mean = 0;
-    for (const RowRun& run : runs)
-      for (int a = 0; a < run.count; ++a) {
-        expected[(run.first + a) * width + i] += run.factor * run.share[a] * row[i];
-        mean += run.factor * run.share[a] * rows[(run.first + a) * width + i];
-      }
-    EXPECT_NEAR(sum[i], mean, 1e-15);
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(spread[i], expected[i], 1e-15);
-}
-
-TEST(RowSums, TheSameInWideRegisters) {
-  expect_same_sums_in_wide_registers<1>();
-  expect_same_sums_in_wide_registers<3>();
-  expect_same_sums_in_wide_registers<4>();
-  expect_same_sums_in_wide_registers<13>();
-  expect_same_sums_in_wide_registers<20>();
-}
-
 TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
   const BulkGrid grid({0, 0, 0}, {2, 1, 3}, {20, 10, 30}, {true, false, false});
   std::mt19937 random(11);
@@ -363,13 +350,13 @@ TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
       for (std::size_t i = 0; i < points.size(); ++i) a.push_back(any_row());
       for (std::size_t c = 0; c < kernels.cells().size(); ++c) b.push_back(any_row());
       const std::vector<Row> deposited = weights.deposit<Row>([&](int i) { return a[i]; });
-      const std::vector<Row> offered = weights.offered(b);
+      auto sampled = weights.samples(b);
       double given = 0, received = 0, left = 0, right = 0, size = 0;
       for (int i = 0; i < weights.particles(); ++i) {
         EXPECT_TRUE(shared || weights.reaches(i));
         given += weights.reaches(i) ? a[i].c : 0;
         size += std::sqrt(dot(a[i], a[i]));
-        right += dot(a[i], weights.sample(offered, i));
+        right += dot(a[i], sampled(i));
         double sum = 0, squares = 0;
         double mean_b = 0, mean_e = 0;
         weights.for_each_cell(i, [&](int slot, double weight) {
@@ -379,10 +366,10 @@ TEST(FluidWeights, DepositKeepsTotalsAndSampleIsItsTranspose) {
           mean_b += weight * b[slot].b;
           mean_e += weight * b[slot].e;
         });
-        EXPECT_NEAR(weights.sample(offered, i).b, mean_b, 1e-15);
-        EXPECT_NEAR(weights.sample(offered, i).e, mean_e, 1e-15);
+        EXPECT_NEAR(sampled(i).b, mean_b, 1e-15);
+        EXPECT_NEAR(sampled(i).e, mean_e, 1e-15);
         EXPECT_NEAR(sum, weights.reaches(i) ? 1 : 0, 1e-14);
-        EXPECT_EQ(weights.squares(i), squares);
+        EXPECT_NEAR(weights.squares(i), squares, 1e-15);
       }
       for (std::size_t c = 0; c < b.size(); ++c) {
         received += deposited[c].c;
