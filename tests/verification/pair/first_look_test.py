@@ -136,6 +136,8 @@ TRIALS = {
                                               extra_files={"particles/p.stl": STL}), 0, ["not: fall out"]),
     "dimensions_of_U": (lambda: edited("dimensions_of_U", FIELDS + "U", "[0 1 -1 0 0 0 0]", "[0 1 -2 0 0 0 0]"), 2,
                         ["0.orig/U: dimensions [0 1 -2 0 0 0 0] are not those of U; give [0 1 -1 0 0 0 0]"]),
+    "dimensions_of_U_beside_binary_fields": (lambda: edited("binary", FIELDS + "U", "[0 1 -1 0 0 0 0]", "[0 1 -2 0 0 0 0]", level=0.03), 2,
+                                             ["0.orig/U: dimensions [0 1 -2 0 0 0 0] are not those of U"]),
     "dimensions_of_p_rgh": (lambda: edited("dimensions_of_p_rgh", FIELDS + "p_rgh", "[1 -1 -2 0 0 0 0]", "[0 2 -2 0 0 0 0]"), 2,
                             ["0.orig/p_rgh: dimensions [0 2 -2 0 0 0 0] are not those"]),
     "dimensions_of_alpha": (lambda: edited("dimensions_of_alpha", FIELDS + "alpha.water", "[0 0 0 0 0 0 0]", "[0 1 0 0 0 0 0]"), 2,
