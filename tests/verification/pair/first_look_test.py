@@ -81,6 +81,7 @@ TRIALS = {
                         ["0.orig/alpha.water: internalField: 2 is not allowed", "from 0 to 1"]),
     "fraction_below_nothing": (lambda: uniform("fraction_below_nothing", -0.5), 2, ["internalField: -0.5 is not allowed"]),
     "fraction_rounded": (lambda: uniform("fraction_rounded", 1.0000001), 0, ["not: begins beyond"]),
+    "fraction_above_one": (lambda: uniform("fraction_above_one", 1.005), 2, ["internalField: 1.005 is not allowed"]),
     "fraction_in_a_list": (lambda: listed("fraction_in_a_list", 1.5), 2, ["internalField: 1.5 is not allowed"]),
     "fraction_that_a_run_left": (lambda: listed("fraction_that_a_run_left", 1.003), 0,
                                  ["beware: alpha.water begins beyond [0, 1] by up to 0.003"]),
