@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <fstream>
 #include <regex>
 
 #include "IFstream.H"
+#include "StringStream.H"
 
 namespace demvof {
 namespace {
@@ -18,6 +19,19 @@ using Foam::word;
 Foam::dictionary read(const fs::path& file) {
   Foam::IFstream stream(file.string());
   return stream.good() ? Foam::dictionary(stream) : Foam::dictionary();
+}
+
+/// What stands before the values of a field, which may be binary.
+Foam::dictionary read_head(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head, line;
+  while (std::getline(stream, line)) {
+    const auto values = line.find("internalField");
+    head += line.substr(0, values) + "\n";
+    if (values != std::string::npos) break;
+  }
+  Foam::IStringStream text(head);
+  return Foam::dictionary(text);
 }
 
 /// A time's folder that holds fields: 0, or the latest that has one.
@@ -54,7 +68,7 @@ std::string wrong_dimensions(const fs::path& folder) {
         expected.emplace_back(entry.path(), Foam::dimless);
   std::string wrong;
   for (const auto& [file, dimensions] : expected) {
-    const Foam::dictionary field = read(file);
+    const Foam::dictionary field = read_head(file);
     if (!field.found("dimensions")) continue;
     const dimensionSet given(field.lookup("dimensions"));
     if (given != dimensions)
