@@ -37,13 +37,17 @@ constexpr bool have_widest = false;
 using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
 using Eight [[gnu::vector_size(8 * sizeof(double))]] = double;
 
-template <class Numbers>
-[[gnu::always_inline]] inline void load(Numbers& numbers, const double* from) {
-  std::memcpy(&numbers, from, sizeof(Numbers));
+[[gnu::always_inline]] inline void load(Four& numbers, const double* from) {
+  std::memcpy(&numbers, from, sizeof(Four));
 }
-template <class Numbers>
-[[gnu::always_inline]] inline void store(double* to, const Numbers& numbers) {
-  std::memcpy(to, &numbers, sizeof(Numbers));
+[[gnu::always_inline]] inline void store(double* to, const Four& numbers) {
+  std::memcpy(to, &numbers, sizeof(Four));
+}
+[[gnu::always_inline]] inline void load(Eight& numbers, const double* from) {
+  std::memcpy(&numbers, from, sizeof(Eight));
+}
+[[gnu::always_inline]] inline void store(double* to, const Eight& numbers) {
+  std::memcpy(to, &numbers, sizeof(Eight));
 }
 
 [[gnu::always_inline]] inline Vec3 xyz(const Four& four) {
