@@ -4,6 +4,7 @@ history.csv, outputs, states to go on from, gravity by a table, windows of one l
 
 Usage: later_start_test.py DEMVOF FOLDER"""
 import pathlib
+import shutil
 import subprocess
 import sys
 import unittest
@@ -30,7 +31,7 @@ class LaterStart(unittest.TestCase):
         control = case.folder / "fluid" / "system" / "controlDict"
         control.write_text(control.read_text().replace("startFrom startTime; startTime 0;", f"\nstartFrom {start_from};\nstartTime {begin};\n"))
         if begin > 0:
-            (case.folder / "fluid" / "0.orig").rename(case.folder / "fluid" / f"{begin}")
+            shutil.copytree(case.folder / "fluid" / "0.orig", case.folder / "fluid" / f"{begin}")  # both are there
         return case
 
     def compare(self, at_zero, later):
