@@ -48,7 +48,8 @@ tmp<Foam::fvVectorMatrix> porous_inertia_and_stress(Flow& flow) {
                      Foam::IOobject::NO_WRITE, false),
       stress_share(flow) * flow.rho);
   const tmp<Foam::fvVectorMatrix> stress = flow.turbulence->divDevRhoReff(stress_density, flow.U);
-  flow.pressure_system.stress = std::make_unique<Foam::fvVectorMatrix>(stress());
+  flow.pressure_system.stress.reset(flow.pressure_system.viscous ? new Foam::fvVectorMatrix(stress())
+                                                                 : nullptr);
   tmp<Foam::fvVectorMatrix> momentum =
       Foam::fv::EulerDdtScheme<vector>(flow.mesh).fvmDdt(eps, flow.rho, flow.U) +
       fvm::div(flow.rho_phi, flow.U) + stress;
@@ -185,11 +186,11 @@ void predict_momentum(Flow& flow) {
   system.history = {};
   system.correction = 0;
   system.settled = false;
+  const bool with_predictor = predicts(flow);
   system.momentum.reset(inertia_and_stress(flow).ptr());
   add_sources(flow, *system.momentum);
   if (flow.source) system.force = flow.source->force.field() + open_momentum(flow) / flow.time.deltaTValue();
   const tmp<surfaceScalarField> lag = relax_momentum(flow, *system.momentum);
-  const bool with_predictor = predicts(flow);
   constrain(flow, *system.momentum);
   if (with_predictor) {
     solve_momentum(flow);
