@@ -133,7 +133,8 @@ std::vector<double> ParticlesToFine::solid_fraction(const std::vector<std::vecto
 std::vector<std::vector<double>> ParticlesToFine::solid_volumes(double part) const {
   std::vector<std::vector<double>> volumes;
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    std::vector<double> here = cut_.cells().fetch_from_owners(solid_volume(state_[k].particles), 0.0);
+    std::vector<double> here;
+    for (const BulkParticles& cell : touched_[k]) here.push_back(cell.solid_volume);
     if (part < 1) {
       const std::vector<double> then = cut_.cells().fetch_from_owners(state_[k].before, 0.0);
       for (std::size_t slot = 0; slot < here.size(); ++slot)
