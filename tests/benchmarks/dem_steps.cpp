@@ -12,23 +12,17 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "dem_side/forces.hpp"
+#include "tests/benchmarks/cpu_seconds.hpp"
 
 namespace {
 
 using namespace demvof;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void write(const char* file, const Dem& dem, const FluidForces& forces) {
   const ParticleArrays local = dem.particles();

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -23,16 +22,11 @@
 
 #include "coupler/transfer/averaging.hpp"
 #include "dem_side/forces.hpp"
+#include "tests/benchmarks/cpu_seconds.hpp"
 
 namespace {
 
 using namespace demvof;
-
-double cpu_seconds() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// What the other side would tell: fluids that differ from place to place, and a surface that is not level.
 struct Fluids {
