@@ -72,6 +72,7 @@ MPI_Comm duplicate(MPI_Comm comm, const char* name) {
 OwnWorld::OwnWorld(int& argc, char**& argv, Side side, double start_limit, const std::filesystem::path& notes)
     : side_(side), pair_(std::make_unique<Pair>()) {
   if (current) throw std::logic_error("one OwnWorld per process");
+  outlive_readers();
   const StartLimit limit(side, start_limit);
   int provided = 0;
   check_mpi(PMPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");

@@ -22,6 +22,10 @@ extern "C" void demvof_on_stop_signal(int number) {
 
 }  // namespace
 
+void outlive_readers() {
+  signal(SIGPIPE, [](int) {});  // ignored, it would be for programs that are started here, too
+}
+
 void install_signal_handlers() {
   for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) {
     const bool once = number == SIGINT || number == SIGTERM;
