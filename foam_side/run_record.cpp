@@ -14,6 +14,7 @@
 #include "coupler/output/restart_point.hpp"
 #include "coupler/output/verdict.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "foam_side/fluid_books.hpp"
 #include "foam_side/run_warnings.hpp"
 
 namespace demvof {
@@ -67,6 +68,22 @@ struct RunRecord::Shared {
     write_results(file, results);
   }
 };
+
+FluidReport take_report(Flow& flow) {
+  FluidReport report;
+  const FluidBooks books = take_books(flow);
+  report.liquid_volume = liquid_volume(flow);
+  report.liquid_in = books.liquid_in;
+  if (!flow.source) return report;
+  report.momentum = fluid_momentum(flow);
+  report.outside.fluid_weight = books.weight;
+  report.outside.boundary_pressure = books.boundary_pressure;
+  report.outside.boundary_shear = books.boundary_shear;
+  report.outside.carried_in = books.carried_in;
+  report.outside.surface_tension = books.surface_tension;
+  report.outside.sources = books.sources;
+  return report;
+}
 
 RunRecord::RunRecord(const ProgramOptions& options, const CaseParameters& parameters, const Scene& scene,
                      const json& particles, int rank, int ranks)

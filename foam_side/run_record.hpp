@@ -34,6 +34,9 @@ struct FluidSeconds {
   double waiting = 0;   // for the partner
 };
 
+/// What flowed and acted in the window or step just done. Collective.
+FluidReport take_report(Flow& flow);
+
 /// What a run leaves behind besides its fields: history.csv, progress.json, results.json.
 /// Rank 0 writes; calls that take the flow are collective over the fluid side.
 class RunRecord {
