@@ -3,8 +3,9 @@
 
 namespace demvof {
 
-/// SIGPIPE ends the process no more: when nobody reads what it prints (mpirun has ended first: Open MPI 5.0 with
-/// --enable-recovery), printing fails and what has to be written into files still is. Called before MPI_Init, which prints.
+/// SIGPIPE ends the process no more: when nobody reads what it prints (mpirun has ended first: Open MPI 5.0
+/// with --enable-recovery), printing fails and what has to be written into files still is. Called before
+/// MPI_Init, which prints.
 void outlive_readers();
 
 /// SIGINT, SIGTERM, SIGUSR1 and SIGXCPU (the shell's limit of CPU time, with a second left until the next

@@ -235,8 +235,8 @@ FAULTS = [
     ("foam_side/advance_clock.cpp", "set_gravity(flow, flow.gravity.mean(now, flow.time.value()));",
      "set_gravity(flow, flow.gravity.at(now));", SHAKEN),
     ("foam_side/restart.cpp", "set_gravity(flow, vec3(state.at(\"gravity\")));", "", SHAKEN),
-    ("dem_side/run.cpp", "dem.set_gravity(parameters.gravity->mean(link.begin_time(), link.end_time()));",
-     "dem.set_gravity(parameters.gravity->at(link.begin_time()));", SHAKEN),
+    ("dem_side/run_pair.cpp", "dem_.set_gravity(parameters_.gravity->mean(link_.begin_time(), link_.end_time()));",
+     "dem_.set_gravity(parameters_.gravity->at(link_.begin_time()));", SHAKEN),
     ("dem_side/forces.cpp", "constant + (weight - weight_of_script);", "constant;", SHAKEN),
     ("dem_side/forces.cpp", "sums.gravity += weight - weight_of_script;", "", SHAKEN),
     # ---- what the pressure corrections leave open
@@ -295,5 +295,5 @@ FAULTS = [
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share + 0.5 * windows_ahead * change <= 0",
      MOVING),
-    ("dem_side/run.cpp", "if (fluid.openings) averaging.set_openings(*fluid.openings);", "", MOVING),
+    ("dem_side/run_pair.cpp", "if (fluid.openings) averaging_.set_openings(*fluid.openings);", "", MOVING),
 ]
