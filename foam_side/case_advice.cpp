@@ -70,6 +70,11 @@ std::vector<std::string> pair_advice(const Flow& flow, const CaseParameters& par
   if (!continues)
     for (const std::string& said : first_look(parameters, flow, grid, particles)) advice.push_back(said);
   require_same_motion(flow, particles.value("moved_surfaces", std::vector<std::string>()));
+  if (flow.ghost && particles.at("inserts_particles").get<bool>())
+    throw InputError(
+        "the script puts particles in during the run, and coupling.phase_interchange is volume_adding, which "
+        "fills each with liquid: that would have to flow to where they come into being, through the gas, too; "
+        "porous makes room for them without");
   if (flow.porosity && particles.at("inserts_particles").get<bool>() && flow.p_rgh.needReference())
     throw InputError(
         "the script puts particles in during the run, and the fluid's box is closed: no patch fixes p_rgh, "

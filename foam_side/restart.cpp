@@ -273,9 +273,26 @@ auto part_of(const json& state, const Read& read) {
   }
 }
 
+/// Digits of the names of time folders.
+struct TimeName : Foam::Time {
+  static int& digits() { return precision_; }
+  static int most_digits() { return maxPrecision_; }
+};
+
+/// OpenFOAM gives a time's name more digits than timePrecision says, when it takes them to tell it from the
+/// time of the step before; but only where controlDict's writeControl writes.
+void name_the_time(Foam::Time& time) {
+  while (TimeName::digits() < TimeName::most_digits() &&
+         std::abs(std::stod(time.timeName()) - time.value()) > 0.1 * time.deltaTValue()) {
+    ++TimeName::digits();
+    static_cast<Foam::dimensionedScalar&>(time).name() = time.timeName(time.value());
+  }
+}
+
 }  // namespace
 
 void write_fields(Flow& flow) {
+  name_the_time(flow.time);
   const bool opened = flow.time.writeNow();
   write_source_states(flow);
   require_file(time_folder(flow) / "uniform" / "time");

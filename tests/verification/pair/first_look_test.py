@@ -22,6 +22,12 @@ def plane(name, z):
     return f"fix {name} all wall/gran model hooke/stiffness tangential history primitive type 1 zplane {z}\n"
 
 
+def with_inserted_ghosts():
+    case = box("insertion_of_ghost_liquid", script_tail=INSERTION, coupling={"phase_interchange": "volume_adding"})
+    case.sides["z+"] = Open()
+    return case.write()
+
+
 def beads(name, places, velocity=(0, 0, 0), **more):
     case = BoxCase(FOLDER / name, upper=(0.04, 0.04, 0.06), fine=(4, 4, 6), bulk=(4, 4, 6), end_time=0.002, window=1e-3,
                    dem_step=1e-4, **more)
@@ -103,6 +109,8 @@ TRIALS = {
                                      ["nothing moves the spheres that fix rain insert/pack puts in"]),
     "insertion_that_is_moved": (lambda: box("insertion_that_is_moved", script_tail=INSERTION).write(), 2,
                                 ["the fluid's box is closed"]),  # and no more
+    "insertion_of_ghost_liquid": (with_inserted_ghosts, 2,
+                                  ["puts particles in during the run, and coupling.phase_interchange is volume_adding"]),
     "bead_moved_twice": (lambda: box("bead_moved_twice", script_tail="fix again all nve/sphere\n").write(), 2,
                          ["fix integrate nve/sphere and fix again nve/sphere both move a sphere (id 1)"]),
     "bead_moved_and_carried": (lambda: box("bead_moved_and_carried", script_tail="fix carry all move linear 0 0 0.1\n").write(), 2,

@@ -4,6 +4,7 @@ history.csv, outputs, states to go on from, gravity by a table, windows of one l
 
 Usage: later_start_test.py DEMVOF FOLDER"""
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -73,6 +74,17 @@ class LaterStart(unittest.TestCase):
         self.assertEqual([f"{float(line.split('timestep=')[1].split(chr(34))[1]) - START:.4f}"
                           for line in (out / "particles" / "particles.pvd").read_text().splitlines() if "timestep=" in line],
                          ["0.0000", "0.0050", "0.0100", "0.0150", "0.0200"])
+
+    def test_folders_of_their_own(self):
+        begin = 100000
+        case = self.case("digits", begin)
+        control = case.folder / "fluid" / "system" / "controlDict"
+        text = re.sub("timePrecision [0-9]+;", "timePrecision 6;", control.read_text())
+        self.assertIn("timePrecision 6;", text)
+        control.write_text(text)
+        case.run(DEMVOF)
+        names = [folder.name for folder in (case.folder / "run" / "fluid").iterdir() if folder.name[0].isdigit() and "." in folder.name]
+        self.assertEqual(sorted(f"{float(name) - begin:.4f}" for name in names), ["0.0050", "0.0100", "0.0150", "0.0200"])
 
     def test_refused(self):
         for begin, setting, said in ((0.2505, "coupling.end_time=0.271", "startTime: 0.2505 s is not a whole number of windows"),
