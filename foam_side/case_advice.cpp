@@ -14,6 +14,7 @@
 #include "foam_side/pressure_solver.hpp"
 #include "foam_side/replacement.hpp"
 #include "foam_side/scene_facts.hpp"
+#include "foam_side/step_limits.hpp"
 
 namespace demvof {
 namespace {
@@ -33,16 +34,29 @@ void require_refinement_to_fit(const Flow& flow) {
       "the latter write a section fluid.refinement with particles: true");
 }
 
+std::string long_steps_for_waves(const Flow& flow, double surface_tension, double step) {
+  const double wave = capillary_step(flow, surface_tension);
+  if (wave <= 0 || step <= wave) return {};
+  return fmt::format(
+      "surface tension is explicit: where the surface is in the mesh's smallest cells, waves of their size "
+      "grow in "
+      "steps longer than {:.2g} s, and a step may have {:.2g} s. Give controlDict maxDeltaT {:.2g} "
+      "(docs/warnings.md, Surface tension)",
+      wave, step, wave);
+}
+
 }  // namespace
 
 std::vector<std::string> fluid_advice(const Flow& flow, const MeshRefinement& refinement, bool paired,
-                                      bool continues, const Vec3& gravity, int ranks) {
+                                      bool continues, const Vec3& gravity, double surface_tension,
+                                      double step, int ranks) {
   const std::string forget = sources_that_forget(flow);
   if (continues && !forget.empty()) throw InputError("--continue: " + forget + "; start a new run");
   std::vector<std::string> advice;
   add_unless_empty(advice, slope_without_effect(flow.mesh, flow.gravity));
   add_unless_empty(advice, gravity_that_jumps(gravity, flow.gravity, flow.time.startTime().value()));
   add_unless_empty(advice, slow_pressure_solver(flow));
+  if (flow.scene.surface_tension) add_unless_empty(advice, long_steps_for_waves(flow, surface_tension, step));
   add_unless_empty(advice, pimple_by_default(flow.mesh));
   if (paired) add_unless_empty(advice, forget);
   if (paired) add_unless_empty(advice, unknown_sources(flow));
@@ -73,7 +87,8 @@ std::vector<std::string> pair_advice(const Flow& flow, const CaseParameters& par
   if (flow.ghost && particles.at("inserts_particles").get<bool>())
     throw InputError(
         "the script puts particles in during the run, and coupling.phase_interchange is volume_adding, which "
-        "fills each with liquid: that would have to flow to where they come into being, through the gas, too; "
+        "fills each with liquid: that would have to flow to where they come into being, through the gas, "
+        "too; "
         "porous makes room for them without");
   if (flow.porosity && particles.at("inserts_particles").get<bool>() && flow.p_rgh.needReference())
     throw InputError(

@@ -23,7 +23,8 @@ struct MeshRefinement {
 /// Foam::error for what it cannot go on with. continues: an earlier run. gravity: of the case, m/s2.
 /// Collective.
 std::vector<std::string> fluid_advice(const Flow& flow, const MeshRefinement& refinement, bool paired,
-                                      bool continues, const Vec3& gravity, int ranks);
+                                      bool continues, const Vec3& gravity, double surface_tension,
+                                      double step, int ranks);
 
 /// The same of what the case and the particles say of each other. particles: dem_side's facts.
 std::vector<std::string> pair_advice(const Flow& flow, const CaseParameters& parameters, const BulkGrid& grid,

@@ -154,7 +154,8 @@ int run_case(const ProgramOptions& options, const OwnWorld& world) {
   const auto say = [&flow](const std::vector<std::string>& advice) {
     flow->scene.advice.insert(flow->scene.advice.end(), advice.begin(), advice.end());
   };
-  say(fluid_advice(*flow, refinement, paired, options.continues, case_gravity(args), world.size()));
+  say(fluid_advice(*flow, refinement, paired, options.continues, case_gravity(args), facts.surface_tension,
+                   step, world.size()));
   if (paired) say(pair_advice(*flow, parameters, *grid, particles, options.continues));
   if (options.check) {
     show_check(*flow, options, parameters, facts, grid, particles, step, world.rank());

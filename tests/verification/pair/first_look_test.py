@@ -111,6 +111,9 @@ TRIALS = {
                                 ["the fluid's box is closed"]),  # and no more
     "insertion_of_ghost_liquid": (with_inserted_ghosts, 2,
                                   ["puts particles in during the run, and coupling.phase_interchange is volume_adding"]),
+    "waves_in_long_steps": (lambda: box("waves_in_long_steps", level=0.03, sigma=150).write(), 0,
+                            ["beware: surface tension is explicit", "longer than 0.00073 s, and a step may have 0.001 s"]),
+    "waves_in_short_steps": (lambda: box("waves_in_short_steps", level=0.03, sigma=75).write(), 0, ["not: surface tension is explicit"]),
     "bead_moved_twice": (lambda: box("bead_moved_twice", script_tail="fix again all nve/sphere\n").write(), 2,
                          ["fix integrate nve/sphere and fix again nve/sphere both move a sphere (id 1)"]),
     "bead_moved_and_carried": (lambda: box("bead_moved_and_carried", script_tail="fix carry all move linear 0 0 0.1\n").write(), 2,
