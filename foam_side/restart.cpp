@@ -9,7 +9,6 @@
 #include <numeric>
 #include <vector>
 
-#include "IFstream.H"
 #include "coupler/base/errors.hpp"
 #include "coupler/base/mpi_check.hpp"
 #include "coupler/base/words_of.hpp"
@@ -17,9 +16,9 @@
 #include "coupler/link/run_stage.hpp"
 #include "coupler/output/state_frame.hpp"
 #include "coupler/output/write_file.hpp"
-#include "foam_side/case_sources.hpp"
 #include "foam_side/continued_fields.hpp"
 #include "foam_side/gathered_state.hpp"
+#include "foam_side/write_fields.hpp"
 #include "labelIOList.H"
 
 namespace demvof {
@@ -137,49 +136,6 @@ void go_on(Flow& flow, const json& state) {
     read_components(state, "velocity_before", flow.U.oldTime().primitiveFieldRef());
 }
 
-/// The last bytes of a file of OpenFOAM, compressed or not.
-std::string end_of_file(const fs::path& file) {
-  constexpr std::streamoff wanted = 100;
-  std::string end;
-  if (fs::exists(file)) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    const std::streamoff size = stream.tellg();
-    stream.seekg(std::max<std::streamoff>(0, size - wanted));
-    end.assign(std::istreambuf_iterator<char>(stream), {});
-  } else if (fs::exists(file.string() + ".gz")) {
-    Foam::IFstream stream(file.string());
-    std::vector<char> block(65536);
-    while (stream.stdStream().read(block.data(), 65536), stream.stdStream().gcount() > 0)
-      end = (end + std::string(block.data(), stream.stdStream().gcount()));
-    end.erase(0, end.size() > wanted ? end.size() - wanted : 0);
-  }
-  return end;
-}
-
-/// OpenFOAM ends each file with a row of stars.
-void require_file(const fs::path& file) {
-  const std::string end = end_of_file(file);
-  const std::string stars = "* //\n";
-  if (end.size() < stars.size() || end.compare(end.size() - stars.size(), stars.size(), stars) != 0)
-    throw RunError(fmt::format("{} was not written to its end: is the disk full?", file.string()));
-}
-
-/// Everything that belongs into the present time folder.
-void require_files(const Foam::objectRegistry& objects, const std::string& time_name) {
-  forAllConstIters(objects, entry) {
-    const Foam::regIOobject& object = **entry;
-    if (const auto* inner = dynamic_cast<const Foam::objectRegistry*>(&object)) {
-      if (inner != &objects) require_files(*inner, time_name);
-    } else if (object.writeOpt() == Foam::IOobject::AUTO_WRITE && object.instance() == time_name) {
-      require_file(static_cast<const std::string&>(object.objectPath()));
-    }
-  }
-}
-
-fs::path time_folder(const Flow& flow) {
-  return static_cast<const std::string&>(flow.time.timePath());
-}
-
 /// The text of each rank, on rank 0.
 std::vector<std::string> gather(const std::string& mine, const OwnWorld& world) {
   const int length = static_cast<int>(mine.size()), ranks = world.rank() == 0 ? world.size() : 0;
@@ -273,34 +229,7 @@ auto part_of(const json& state, const Read& read) {
   }
 }
 
-/// Digits of the names of time folders.
-struct TimeName : Foam::Time {
-  static int& digits() { return precision_; }
-  static int most_digits() { return maxPrecision_; }
-};
-
-/// OpenFOAM gives a time's name more digits than timePrecision says, when it takes them to tell it from the
-/// time of the step before; but only where controlDict's writeControl writes.
-void name_the_time(Foam::Time& time) {
-  while (TimeName::digits() < TimeName::most_digits() &&
-         std::abs(std::stod(time.timeName()) - time.value()) > 0.1 * time.deltaTValue()) {
-    ++TimeName::digits();
-    static_cast<Foam::dimensionedScalar&>(time).name() = time.timeName(time.value());
-  }
-}
-
 }  // namespace
-
-void write_fields(Flow& flow) {
-  name_the_time(flow.time);
-  const bool opened = flow.time.writeNow();
-  write_source_states(flow);
-  require_file(time_folder(flow) / "uniform" / "time");
-  require_files(flow.time, flow.time.timeName());  // names the file
-  if (!opened)
-    throw RunError(
-        fmt::format("OpenFOAM could not write all of {}: is the disk full?", time_folder(flow).string()));
-}
 
 /// Of this rank; no step changes them.
 const StateFiles& mesh_files(const fs::path& run, const Flow& flow) {

@@ -12,10 +12,6 @@
 
 namespace demvof {
 
-/// The time folder of the fluid case, of this rank. Throws RunError when a field that belongs there is not,
-/// or is cut: OpenFOAM itself looks only whether it could open the files. Collective.
-void write_fields(Flow& flow);
-
 /// Windows of their own lengths, DEM steps: of the last one, and what the next one may have.
 struct WindowSteps {
   long last = 0, next = 0;

@@ -4,8 +4,8 @@
 #include "coupler/base/stopwatch.hpp"
 #include "coupler/link/signals.hpp"
 #include "foam_side/fluid_case.hpp"
-#include "foam_side/restart.hpp"
 #include "foam_side/step_fluid.hpp"
+#include "foam_side/write_fields.hpp"
 
 namespace demvof {
 

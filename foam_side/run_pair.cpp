@@ -11,6 +11,7 @@
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
 #include "foam_side/step_fluid.hpp"
+#include "foam_side/write_fields.hpp"
 
 namespace demvof {
 namespace {

@@ -42,7 +42,7 @@ FAULTS = [
     ("coupler/cli/slurm_options.cpp", "if (*limit <= static_cast<double>(lead))", "if (false)", JOB),
     ("coupler/output/verdict.cpp", "if (worst <= most_of_everything) return;", "return;", VERDICT),
     ("coupler/cli/redistribute.cpp", "decomposePar -force -copyUniform -time", "decomposePar -force -time", CONTINUED),
-    ("foam_side/restart.cpp", "  write_source_states(flow);\n", "", CONTINUED),
+    ("foam_side/write_fields.cpp", "  write_source_states(flow);\n", "", CONTINUED),
     ("foam_side/case_sources.cpp", "stream.precision(17);", "", CONTINUED),
     ("foam_side/fluid_books.cpp", "force += (*free & flow.U)", "if (false) force += (*free & flow.U)", DRIVEN),
     ("foam_side/open_flow.cpp", "  require_sources_to_act(*flow);\n", "", REFUSALS),
