@@ -87,6 +87,14 @@ class LongReading {
   bool said_ = false;
 };
 
+void say_where_it_cannot_run(const CaseParameters& parameters) {
+  try {
+    RunFolder(parameters, {}).require_name();
+  } catch (const InputError& error) {
+    fmt::print("beware: beside the case file `demvof run` has no folder to run in: {}\n", error.what());
+  }
+}
+
 }  // namespace
 
 int check_command(const CaseOptions& options) {
@@ -114,6 +122,7 @@ int check_command(const CaseOptions& options) {
   LongReading reading(folder.path() / "particles.log");
   watch.on_tick = [&reading] { reading.look(); };
   const int code = launch(command, watch).code;
+  if (code == 0) say_where_it_cannot_run(parameters);
   fmt::print("{}\n", code == 0 ? "The case is ready to run." : "The case cannot run as it is.");
   return code;
 }

@@ -158,8 +158,7 @@ void RunFolder::clear(bool force) const {
   hold();
 }
 
-void RunFolder::hold() const {
-  if (lock_) return;
+void RunFolder::require_name() const {
   // OpenFOAM drops blanks and quotes from names of files, LIGGGHTS puts numbers in the place of * and %.
   const std::string name = fs::absolute(path_).lexically_normal().string();
   const auto unfit = [](char c) {
@@ -170,6 +169,11 @@ void RunFolder::hold() const {
         fmt::format("--out {}: OpenFOAM and LIGGGHTS take no folder with '{}' in its path; choose "
                     "another --out",
                     printable(name), printable({*at})));
+}
+
+void RunFolder::hold() const {
+  if (lock_) return;
+  require_name();
   std::error_code error;
   fs::create_directories(path_, error);
   if (error)

@@ -37,6 +37,8 @@ class RunFolder {
   /// it holds something else, when it is where the case itself lives, or when it holds results or another
   /// preparation and force is false.
   void clear(bool force) const;
+  /// Throws InputError when the solvers cannot name it.
+  void require_name() const;
   /// Takes the folder for this process until its end. Throws InputError when a run is going on in it.
   void hold() const;
   /// Waits until no program of a run holds the folder any more, s at most.

@@ -51,6 +51,13 @@ class BothPrograms(unittest.TestCase):
         self.assertIn(old, text)
         (self.folder / file).write_text(text.replace(old, new))
 
+    def test_a_folder_that_the_solvers_cannot_name(self):
+        folder = self.folder.rename(self.folder.parent / "a case")
+        code, output = check(folder / "case.yaml")
+        self.assertEqual(code, 0, output)
+        self.assertIn("beware: beside the case file `demvof run` has no folder to run in", output)
+        self.assertIn("take no folder with ' ' in its path", output)
+
     def refused(self, code, *parts, settings=()):
         said_code, output = check(self.case, *settings)
         self.assertEqual(said_code, code, output)
