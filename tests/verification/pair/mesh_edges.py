@@ -96,7 +96,7 @@ def behind_an_outlet():
     volume = numpy.pi / 6 * 4e-3**3
     gone = numpy.flatnonzero(solid < 1e-10 * volume)
     RECORD.at_most("behind an outlet: solid volume on the mesh two windows later, over the bead's",
-                   numpy.abs(solid[gone[2:]]).max() / volume, 1e-13)
+                   numpy.abs(solid[gone[2:]]).max() / volume, 9e-14)
     RECORD.at_least("behind an outlet: windows in which the bead is there", len(gone), 20)
     RECORD.at_most("behind an outlet: change of its momentum there, relative",
                    numpy.abs(momentum[gone[1:]] / momentum[gone[1]] - 1).max(), 1e-14)
