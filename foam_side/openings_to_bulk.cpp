@@ -68,43 +68,77 @@ class Connections {
   std::vector<Passages> passages_;
 };
 
-/// Of a face of a sliding interface, whose other side is at the same place, in cells that change.
-double bulk_cell_beyond(const Foam::fvMesh& mesh, const BulkGrid& grid, label face) {
-  constexpr double beyond = 1e-3;  // of the fine cell's size
+/// Of a fine cell: the bulk cells that it lies in, and the middle of its part in each of them, m.
+struct Parts {
+  std::vector<CellId> cells;
+  std::vector<Vec3> middles;
+};
+
+/// The bulk cells beyond a face of a sliding interface, whose other side is at the same place, in cells that
+/// change: beyond the places on it that are nearest to the parts of its own cell.
+std::vector<CellId> bulk_cells_beyond(const Foam::fvMesh& mesh, const BulkGrid& grid, label face,
+                                      const Parts& parts) {
+  constexpr double beyond = 1e-3;  // of the fine cell's size, and from the face's edges to its centre
   const vector& area = mesh.faceAreas()[face];
   const vector outwards =
       area / (Foam::mag(area) + Foam::VSMALL) * std::cbrt(mesh.V()[mesh.faceOwner()[face]]);
-  return static_cast<double>(grid.id(grid.locate(to_vec3(mesh.faceCentres()[face] + beyond * outwards))));
+  std::vector<CellId> cells;
+  for (const Vec3& middle : parts.middles) {
+    const vector nearest = mesh.faces()[face].nearestPoint(to_foam(middle), mesh.points()).rawPoint();
+    const vector place = nearest + beyond * (mesh.faceCentres()[face] - nearest + outwards);
+    cells.push_back(grid.id(grid.locate(to_vec3(place))));
+  }
+  return cells;
+}
+
+/// The bulk cells of the fine cell beyond each boundary face where that is of another rank or at the other
+/// end of a period: all that it lies in, since a fine cell may be larger than a bulk cell.
+std::vector<std::vector<CellId>> bulk_cells_across(const Foam::fvMesh& mesh, const std::vector<Parts>& bulk) {
+  std::size_t most = 0;
+  for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+    for (const label cell : patch.faceCells())
+      if (patch.coupled()) most = std::max(most, bulk[cell].cells.size());
+  label rounds = static_cast<label>(most);
+  Foam::reduce(rounds, Foam::maxOp<label>());
+  std::vector<std::vector<CellId>> across(static_cast<std::size_t>(mesh.nBoundaryFaces()));
+  scalarField home(mesh.nCells()), beyond;  // one of the bulk cells of each; -1: none
+  for (std::size_t n = 0; n < static_cast<std::size_t>(rounds); ++n) {
+    forAll(home, cell) home[cell] =
+        n < bulk[cell].cells.size() ? static_cast<double>(bulk[cell].cells[n]) : -1;
+    Foam::syncTools::swapBoundaryCellList(mesh, home, beyond);
+    forAll(beyond, face) if (beyond[face] >= 0) across[face].push_back(static_cast<CellId>(beyond[face]));
+  }
+  return across;
 }
 
 CellValues<BulkWalls> find_walls(const Foam::fvMesh& mesh, const BulkGrid& grid, const Remap& cut) {
   const std::vector<CellId>& touched = cut.cells().cells();
   Connections connections(grid, touched);
-  std::vector<std::vector<CellId>> bulk(static_cast<std::size_t>(mesh.nCells()));  // of each fine cell
+  std::vector<Parts> bulk(static_cast<std::size_t>(mesh.nCells()));  // of each fine cell
   for (const Subcell& subcell : cut.subcells()) {
     connections.fill(subcell.slot, subcell.volume);
-    if (subcell.volume > sticks_out * mesh.V()[subcell.fine])
-      bulk[subcell.fine].push_back(touched[subcell.slot]);
+    if (!(subcell.volume > sticks_out * mesh.V()[subcell.fine])) continue;
+    bulk[subcell.fine].cells.push_back(touched[subcell.slot]);
+    bulk[subcell.fine].middles.push_back(subcell.centroid);
   }
   const auto connect = [&](const std::vector<CellId>& some, const std::vector<CellId>& others) {
     for (const CellId a : some)
       for (const CellId b : others) connections.connect(a, b);
   };
-  for (const std::vector<CellId>& cells : bulk) connect(cells, cells);
+  for (const Parts& parts : bulk) connect(parts.cells, parts.cells);
   for (label face = 0; face < mesh.nInternalFaces(); ++face)
-    connect(bulk[mesh.faceOwner()[face]], bulk[mesh.faceNeighbour()[face]]);
+    connect(bulk[mesh.faceOwner()[face]].cells, bulk[mesh.faceNeighbour()[face]].cells);
 
-  scalarField home(mesh.nCells()),
-      across;  // bulk cell of each fine cell's centre; beyond the boundary's faces
-  forAll(home, cell) home[cell] =
-      static_cast<double>(grid.id(grid.locate(to_vec3(mesh.cellCentres()[cell]))));
-  Foam::syncTools::swapBoundaryCellList(mesh, home, across);
+  const std::vector<std::vector<CellId>> across = bulk_cells_across(mesh, bulk);
   for (const Foam::polyPatch& patch : mesh.boundaryMesh()) {
     const bool slides = Foam::isA<Foam::cyclicAMIPolyPatch>(patch);
     const bool goes_on = slides || patch.coupled();
     for (label face = patch.start(); goes_on && face < patch.start() + patch.size(); ++face) {
-      const double other = slides ? bulk_cell_beyond(mesh, grid, face) : across[face - mesh.nInternalFaces()];
-      connect(bulk[mesh.faceOwner()[face]], {static_cast<CellId>(other)});
+      const Parts& here = bulk[mesh.faceOwner()[face]];
+      if (slides)
+        connect(here.cells, bulk_cells_beyond(mesh, grid, face, here));
+      else
+        connect(here.cells, across[face - mesh.nInternalFaces()]);
     }
   }
 

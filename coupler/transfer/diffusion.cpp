@@ -9,6 +9,13 @@
 
 namespace demvof {
 
+namespace {
+
+// Of a cell's share, what comes to it from the open cells around: below this there is none of the fluid.
+constexpr double nothing = 1e-200;
+
+}  // namespace
+
 RowDiffusion::RowDiffusion(int cells, double strength, bool periodic) : cells_(cells), periodic_(periodic) {
   const double s = 0.5 / strength, q = s + std::sqrt(s * (s + 2));
   lambda_ = 1 / (1 + q);
@@ -95,10 +102,10 @@ void Diffusion::set_walls(const CellValues<BulkWalls>& walls) {
   int any = walls.cells.empty() ? 0 : 1;
   check_mpi(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world_), "MPI_Allreduce");
   walls_ = any > 0;
+  for (Axis& axis : axes_) axis.wall.clear();
   if (!walls_) return;
   for (Axis& axis : axes_) {
     const std::vector<BulkWalls> here = axis.touched->fetch_from_owners(walls, BulkWalls{});
-    axis.wall.clear();
     for (const int place : axis.place) axis.wall.push_back(here[place].towards_lower(axis.along));
   }
 }
@@ -110,7 +117,9 @@ void Diffusion::set_open_shares(const CellValues<double>& share) {
   open.values.assign(open.cells.size(), 1.0);
   for (std::size_t i = 0; i < share.cells.size(); ++i)
     open.values[partition_.place(share.cells[i])] = share.values[i];
-  reached_ = diffused(open, false).values;
+  // As gather goes: the sum of what comes of a deposit.
+  per_reached_ = diffused(open, walls_).values;
+  for (double& value : per_reached_) value = value > nothing ? 1 / value : 0;
   open_ = std::move(open.values);
 }
 

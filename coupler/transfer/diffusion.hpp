@@ -58,8 +58,10 @@ class Diffusion {
 
   /// Cells of this rank that the fluid mesh does not fill, with the fluid's share a in their volume; all
   /// others count in full. What is spread then goes to a cell in proportion to its share:
-  ///   a G (x / (G a))   deposited x,  G the diffusion;   (G a y) / (G a)   its transpose, for what is
+  ///   a G (x / (G^T a))   deposited x,  G the diffusion;   (G^T a y) / (G^T a)   its transpose, for what is
   ///   sampled
+  /// whose sum over the cells is that of x. G^T is G unless there are walls: then the axes do not commute.
+  /// Where the fluid is so far away that G^T a is nothing, nothing is deposited and nothing sampled.
   void set_open_shares(const CellValues<double>& share);
 
   /// Faces that nothing goes through, on cells of this rank. Before set_open_shares.
@@ -69,7 +71,7 @@ class Diffusion {
   /// them.
   template <class T>
   CellValues<T> spread(CellValues<T> values) const {
-    scale(values, [this](std::size_t own) { return 1 / reached_[own]; });
+    scale(values, [this](std::size_t own) { return per_reached_[own]; });
     values = diffused(std::move(values), false);
     scale(values, [this](std::size_t own) { return open_[own]; });
     return values;
@@ -79,7 +81,7 @@ class Diffusion {
   CellValues<T> gather(CellValues<T> values) const {
     scale(values, [this](std::size_t own) { return open_[own]; });
     values = diffused(std::move(values), walls_);
-    scale(values, [this](std::size_t own) { return 1 / reached_[own]; });
+    scale(values, [this](std::size_t own) { return per_reached_[own]; });
     return values;
   }
 
@@ -121,7 +123,7 @@ class Diffusion {
   BulkPartition partition_;
   bool walls_ = false;  // on all ranks
   std::vector<Axis> axes_;
-  std::vector<double> open_, reached_;  // a and G a of each cell of this rank; empty: all open
+  std::vector<double> open_, per_reached_;  // a and 1 / (G^T a) of each cell of this rank; empty: all open
 };
 
 }  // namespace demvof

@@ -56,27 +56,33 @@ TEST_F(AveragingKernels, DiffusionStaysBehindWalls) {
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   std::mt19937 random(5);
   std::uniform_real_distribution<> uniform(0, 1);
-  for (const bool periodic : {false, true}) {
+  // Alone, and with cells that the fluid fills in part, as beside a surface.
+  for (const int run : {0, 1, 2, 3}) {
+    const bool periodic = run % 2 == 1, partly = run >= 2;
     const BulkGrid grid({0, 0, 0}, {0.08, 0.05, 0.06}, {8, 5, 6}, {periodic, false, periodic});
     const BulkPartition partition(grid.cells(), ranks);
     Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 0.03);
     CellValues<BulkWalls> walls;
-    CellValues<double> given, field, side;
+    CellValues<double> given, field, side, share;
     for (CellId cell = 0; cell < grid.cell_count(); ++cell) {
       const auto ijk = grid.ijk(cell);
       BulkWalls here;
       here.x = ijk[0] == 3 || ijk[0] == 0 || uniform(random) < 0.05;  // two rooms, and baffles
       here.y = uniform(random) < 0.1;
-      const double value = uniform(random), other = uniform(random);
+      const double value = uniform(random), other = uniform(random),
+                   open = std::max(0.0, uniform(random) - 0.2);
       if (partition.owner(cell) != rank) continue;
       walls.cells.push_back(cell);
       walls.values.push_back(here);
       given.values.push_back(value);
       field.values.push_back(other);
       side.values.push_back(ijk[0] < 3);
+      share.values.push_back(open);
     }
-    given.cells = field.cells = side.cells = walls.cells;
+    given.cells = field.cells = side.cells = share.cells = walls.cells;
+    const std::vector<double> without = diffusion.spread(given).values;
     diffusion.set_walls(walls);
+    if (partly) diffusion.set_open_shares(share);
     const std::vector<double> spread = diffusion.spread(given).values,
                               gathered = diffusion.gather(field).values;
     double sums[6] = {};  // given, spread, in one room each; <spread, field>, <given, gathered>
@@ -90,6 +96,42 @@ TEST_F(AveragingKernels, DiffusionStaysBehindWalls) {
     EXPECT_NEAR(sums[1] / sums[0], 1, 1e-12);
     EXPECT_NEAR(sums[3] / sums[2], 1, 1e-12);
     EXPECT_NEAR(sums[4] / sums[5], 1, 1e-12);
+    if (partly) continue;
+    diffusion.set_walls({});
+    EXPECT_EQ(diffusion.spread(given).values, without) << "walls that are gone";
+  }
+}
+
+TEST_F(AveragingKernels, DiffusionInAFluidThatIsNowhereOrFarAway) {
+  int rank, ranks;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const BulkGrid grid({0, 0, 0}, {4, 1, 1}, {400, 2, 2}, {false, false, false});
+  const BulkPartition partition(grid.cells(), ranks);
+  for (const int wet : {0, 1, 4}) {  // cells along x that hold some
+    Diffusion diffusion(MPI_COMM_WORLD, grid, partition, 0.01);
+    CellValues<double> share, given, field;
+    double total = 0;
+    for (CellId cell = 0; cell < grid.cell_count(); ++cell) {
+      const bool in_it = grid.ijk(cell)[0] < wet;
+      total += in_it;
+      if (partition.owner(cell) != rank) continue;
+      share.cells.push_back(cell);
+      share.values.push_back(in_it ? 0.5 : 0);
+      given.values.push_back(in_it);
+      field.values.push_back(3);
+    }
+    given.cells = field.cells = share.cells;
+    diffusion.set_open_shares(share);
+    double sum = 0;
+    for (const double value : diffusion.spread(given).values) sum += value;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_NEAR(sum, total, 1e-12);
+    const std::vector<double> gathered = diffusion.gather(field).values;
+    for (std::size_t i = 0; i < gathered.size(); ++i)
+      EXPECT_TRUE(share.values[i] > 0 ? std::abs(gathered[i] - 3) < 1e-12
+                                      : gathered[i] >= 0 && gathered[i] < 4)
+          << gathered[i];
   }
 }
 

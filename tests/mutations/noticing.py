@@ -32,7 +32,7 @@ OWN_WINDOWS = {"^unit_window_rule$": ["unit_window_rule"], "^unit_seen_fluid$": 
                "^unit_output_due$": ["unit_output_due"]}
 MOVING = {"^pair.moving_mesh$": PAIR}
 TURNING = {"^pair.turning$": PAIR}
-PERIODIC, HALVES = ({f"^pair.{name}$": PAIR} for name in ("periodic_mesh", "overlapping_patches"))
+PERIODIC, HALVES, EDGES = ({f"^pair.{name}$": PAIR} for name in ("periodic_mesh", "overlapping_patches", "mesh_edges"))
 GRID = {"^unit_bulk_grid$": ["unit_bulk_grid"]}
 OWED = {"^unit_owed_pressure$": ["unit_owed_pressure"], "^unit_seen_fluid$": ["unit_seen_fluid"]}
 ORDER = {"^unit_seen_fluid$": ["unit_seen_fluid"], "^unit_continuation$": ["unit_continuation"]}

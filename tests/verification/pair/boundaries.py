@@ -17,7 +17,8 @@ RECORD = Record("boundaries", "Boundaries",
                 "like one that does not; beads come to rest on a slanted wall that cuts bulk cells; particles of two "
                 "types and sizes in one bed; frozen particles in a through-flow; a bed on an inlet of given velocity or flow; "
                 "particles that leave with the fluid "
-                "are counted as left, not as lost; meshes and scripts that disagree are refused.",
+                "are counted as left, not as lost; a second fluid that is nowhere at the start; meshes and scripts that disagree are "
+                "refused.",
                 "tests/Alltest --verification -- -R pair.boundaries")
 
 
@@ -313,8 +314,22 @@ def no_room_for_the_fluid():
     RECORD.at_most("no room for the fluid: exchange error", run.number("conservation.exchange"), 1.8e-15)
 
 
+# ---- one fluid only
+
+def the_other_fluid_is_nowhere():
+    """A box with air outside that begins full of water, or dry with water that comes in; a kernel that reaches everywhere."""
+    for name, sides, wet in (("full of water", {"z+": Open()}, 1), ("dry", {"x-": Inlet((0.1, 0, 0)), "z+": Outlet(0)}, 0)):
+        case = BoxCase(scratch(f"boundaries/{name.replace(' ', '_')}"), upper=(0.04, 0.04, 0.06), fine=(4, 4, 6), bulk=(4, 4, 6), end_time=5e-3,
+                       window=1e-3, dem_step=1e-4, level=None if wet else -1.0, coupling={"averaging": {"kernel": "diffusion"}},
+                       particles=[Particle((0.02, 0.02, 0.03), 2e-3, 2500)])
+        case.sides = {side: Slip() for side in case.sides} | sides
+        run = case.run(DEMVOF)
+        RECORD.at_most(f"the other fluid is nowhere, {name}: exchange error", run.number("conservation.exchange"), 1e-14)
+        RECORD.at_most(f"the other fluid is nowhere, {name}: solid volume error", run.number("conservation.solid_volume"), 5e-13)
+
+
 TESTS = [periodic, falling_along_a_period, refusals, slanted_floor, two_sizes, frozen_in_a_stream, bed_on_the_inlet, out_with_the_stream,
-         stream_from_a_face, no_room_for_the_fluid]
+         stream_from_a_face, no_room_for_the_fluid, the_other_fluid_is_nowhere]
 for test in TESTS:
     if len(sys.argv) < 3 or test.__name__ in sys.argv[2:]:
         test()

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where the fluid's mesh ends, particles meet no fluid: a wall inside on faces of the bulk grid, the space above an
-open top, and behind an outlet.
+open top, and behind an outlet. Where it goes on, at the other end of a period or on another rank, there is no wall.
 
 Usage: mesh_edges.py DEMVOF"""
 import sys
 
 import numpy
 
-from box_case import BoxCase, Open, Outlet, Inlet, Particle, Slip, scratch, vector
+from box_case import BoxCase, Cyclic, Open, Outlet, Inlet, Particle, Slip, particle_states, scratch, vector
 from box_fields import cell_field, output_times, vector_field
 from record import Record
 
@@ -15,7 +15,8 @@ DEMVOF = sys.argv[1]
 RECORD = Record("mesh_edges", "Where the fluid's mesh ends",
                 "A wall inside the mesh, on faces of the bulk grid: nothing of a bead beside it arrives on the other side, "
                 "with any kernel. Beads above an open top and behind an outlet displace nothing, feel nothing and are "
-                "counted, until they fall in.",
+                "counted, until they fall in. A bead beside the end of a period, or beside cells of another rank, is as far from "
+                "any wall, with fine cells larger than bulk cells too.",
                 "tests/Alltest --verification -- -R pair.mesh_edges")
 
 
@@ -95,7 +96,7 @@ def behind_an_outlet():
     volume = numpy.pi / 6 * 4e-3**3
     gone = numpy.flatnonzero(solid < 1e-10 * volume)
     RECORD.at_most("behind an outlet: solid volume on the mesh two windows later, over the bead's",
-                   numpy.abs(solid[gone[2:]]).max() / volume, 1e-13)
+                   numpy.abs(solid[gone[2:]]).max() / volume, 9e-14)
     RECORD.at_least("behind an outlet: windows in which the bead is there", len(gone), 20)
     RECORD.at_most("behind an outlet: change of its momentum there, relative",
                    numpy.abs(momentum[gone[1:]] / momentum[gone[1]] - 1).max(), 1e-14)
@@ -104,6 +105,26 @@ def behind_an_outlet():
     RECORD.at_most("behind an outlet: exchange error", run.number("conservation.exchange"), 2e-14)
 
 
-for test in (wall_inside, above_an_open_top, behind_an_outlet):
+def no_wall():
+    """A bead falls through the surface beside a face at which the mesh goes on, and the same without one. Fine cells lie in
+    eight bulk cells each, whose faces on that face have no fine cells' centres beside them."""
+    middle, end = 0.0185, 0.0385
+    runs = {}
+    for name, x, periodic, ranks in (("period, beside its end", end, True, 1), ("period, inside", middle, True, 1),
+                                     ("2 ranks", middle, False, 2), ("1 rank", middle, False, 1)):
+        case = BoxCase(scratch(f"mesh_edges/{name.replace(', ', '_').replace(' ', '_')}"), upper=(0.04, 0.02, 0.04), fine=(4, 2, 4), bulk=(8, 4, 8),
+                       end_time=0.02, window=1e-3, dem_step=1e-4, level=0.0189, level_in_cells=True, tolerance=1e-14, relative_tolerance=0,
+                       particles=[Particle((x, 0.009, 0.0205), 2e-3, 2500)], coupling={"averaging": {"kernel": "diffusion", "bandwidth": 0.01}})
+        case.sides = {side: Slip() for side in case.sides} | {"z+": Open()} | ({"x-": Cyclic(), "x+": Cyclic()} if periodic else {})
+        run = case.run(DEMVOF, "--fluid-ranks", str(ranks))
+        runs[name] = particle_states(run.folder)["velocity"][0]
+        RECORD.at_most(f"no wall, {name}: solid volume error", run.number("conservation.solid_volume"), 4e-13)
+        RECORD.at_most(f"no wall, {name}: exchange error", run.number("conservation.exchange"), 1.5e-14)
+    for one, other in (("period, beside its end", "period, inside"), ("2 ranks", "1 rank")):
+        RECORD.at_most(f"no wall, {one} against {other}: velocity", numpy.abs(runs[one] - runs[other]).max(), 4.5e-14, "m/s")
+    RECORD.at_least("no wall: speed to which the bead falls", -runs["1 rank"][2], 0.1, "m/s")
+
+
+for test in (wall_inside, above_an_open_top, behind_an_outlet, no_wall):
     test()
 sys.exit(RECORD.write())

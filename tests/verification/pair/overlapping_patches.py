@@ -4,12 +4,13 @@
     uniform stream past beads along a periodic box                      it stays uniform, as if it were one mesh
     cyclicACMI, one half shifted: the rest of either side is a wall     the books close
     cyclicACMI, one half of the mesh moves                              refused by demvof check, which names the patch
+    cyclicACMI, a bead beside it, fine cells larger than bulk cells     it moves as one beside the end of the period, which has no wall either
 
 Usage: overlapping_patches.py DEMVOF"""
 import subprocess
 
 import numpy
-from box_case import BoxCase, Particle, command_line, momentum_of_everything, scratch, vector
+from box_case import BoxCase, Particle, command_line, momentum_of_everything, particle_states, scratch, vector
 from moving_walls import foam_file, mesh_motion
 from record import Record
 
@@ -21,12 +22,12 @@ INLET = {"U": f"fixedValue; value uniform {vector(STREAM)}", "p_rgh": "fixedFlux
 OUTLET = {"U": "inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 0)", "p_rgh": "fixedValue; value uniform 0", "alpha.water": "zeroGradient"}
 
 
-def blocks(shift, periodic):
-    """blockMeshDict of the two halves along x; shift: of the second along y."""
+def blocks(shift, periodic, cells):
+    """blockMeshDict of the two halves along x; shift: of the second along y; cells: of each."""
     points = " ".join(vector((x, y + dy, z)) for x, dy in ((0, 0), (0.03, 0), (0.03, shift), (0.06, shift)) for z in (0, 0.04) for y in (0, 0.04))
     def block(a, zone):
         b = a + 4
-        return f"hex ({a} {b} {b + 1} {a + 1} {a + 2} {b + 2} {b + 3} {a + 3}) {zone} (6 8 8) simpleGrading (1 1 1)"
+        return f"hex ({a} {b} {b + 1} {a + 1} {a + 2} {b + 2} {b + 3} {a + 3}) {zone} {vector(cells)} simpleGrading (1 1 1)"
     def end(a):
         return f"({a} {a + 1} {a + 3} {a + 2})"
     sides = " ".join(f"({a} {b} {b + 1} {a + 1}) ({a + 2} {b + 2} {b + 3} {a + 3}) ({a} {b} {b + 2} {a + 2}) ({a + 1} {b + 1} {b + 3} {a + 3})"
@@ -48,14 +49,16 @@ def baffles(kind):
     return foam_file("dictionary", f"internalFacesOnly false; baffles {{ {side('a', 'b')} {side('b', 'a')} }}")
 
 
-def halves(name, kind, held, shift=0.0):
+def halves(name, kind, held, shift=0.0, cells=(6, 8, 8), bulk=(6, 4, 4)):
+    """cells: of the fluid in each half. bulk: cells of the grid, in all; the shift is whole ones."""
     periodic = shift == 0
-    case = BoxCase(scratch(f"overlapping_patches/{name}"), (6 * EDGE, 4 * EDGE + shift, 4 * EDGE), (12, 8, 8), (6, 4 + round(shift / EDGE), 4), 0.02,
+    case = BoxCase(scratch(f"overlapping_patches/{name}"), (6 * EDGE, 4 * EDGE + shift, 4 * EDGE), (2 * cells[0], *cells[1:]),
+                   (bulk[0], bulk[1] + round(shift / EDGE), bulk[2]), 0.02,
                    WINDOW, gravity=(0, 0, 0), velocity=STREAM, tolerance=1e-13, relative_tolerance=0, history_interval=WINDOW, dem_step=WINDOW / 10,
                    first_step=WINDOW / 4, longest_step=WINDOW / 4, forces=[] if held else [{"drag": "di_felice"}, "pressure_gradient"],
                    periodic=[periodic, False, False], prepare=["cp -r 0 fields", "blockMesh", "topoSet", "createBaffles -overwrite",
                                                                "cp fields/U fields/p_rgh fields/alpha.water 0"])
-    case.extra_files = {"fluid/system/blockMeshDict": blocks(shift, periodic), "fluid/system/createBafflesDict": baffles(kind)}
+    case.extra_files = {"fluid/system/blockMeshDict": blocks(shift, periodic, cells), "fluid/system/createBafflesDict": baffles(kind)}
     case.extra_files["fluid/system/topoSetDict"] = foam_file("dictionary", "actions (" + " ".join(
         f"{{ name {n}; type faceSet; action new; source patchToFace; patch {n}; }} {{ name {n}; type faceZoneSet; action new; source setToFaceZone; faceSet {n}; }}"
         for n in "ab") + ");")
@@ -79,6 +82,14 @@ def refused(demvof):
     return done.returncode == 2 and "patch a_couple of type cyclicACMI" in done.stdout + done.stderr
 
 
+def velocity_beside(demvof, end):
+    """Of a bead that the stream takes along, beside the plane (end 0.03 m) or the end of the period (0.06 m)."""
+    case = halves(f"beside_{round(end / EDGE)}", "cyclicACMI", False, cells=(3, 4, 4), bulk=(12, 8, 8))
+    case.forces = [{"drag": "di_felice"}, "pressure_gradient"]
+    case.particles = [Particle((end - 1.5e-3, 0.018, 0.018), 5e-3, 1000)]
+    return particle_states(case.run(demvof).folder)["velocity"][0]
+
+
 def main():
     options = command_line()
     record = Record("overlapping_patches", "Meshes in two halves that meet at patches",
@@ -96,6 +107,10 @@ def main():
                     runs[-1].history["max_speed"][-1] / STREAM[0], 1.2)
     for quantity, bound in (("exchange", 1.5e-13), ("liquid_volume", 1.5e-12), ("solid_volume", 1e-13)):
         record.at_most(f"all runs: {quantity.replace('_', ' ')}", max(run.results["conservation"][quantity] for run in runs), bound)
+    plane, period = (velocity_beside(options.demvof, end) for end in (3 * EDGE, 6 * EDGE))
+    record.at_most("cyclicACMI, a bead beside it, in fine cells of eight bulk cells, against one beside the end of the period: velocity over the stream's",
+                   max(abs(plane - period)) / STREAM[0], 1.6e-10)
+    record.at_least("cyclicACMI, a bead beside it: velocity over the stream's", plane[0] / STREAM[0], 0.1)
     record.at_most("halves that slide, cyclicACMI: not refused by name", int(not refused(options.demvof)), 0)
     momentum_of_everything(record, 8e-12)
     raise SystemExit(record.write())
