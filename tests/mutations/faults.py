@@ -67,6 +67,7 @@ FAULTS = [
      "const double response = response_times(theta);", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "particles.following_response *= kept * follow;",
      "particles.following_response *= kept;", OWN_WINDOWS),
+    ("coupler/exchange/window_rule.hpp", "all += wanted = steps_of", "all += steps_of", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "if (error > 1)", "if (error > 10)", OWN_WINDOWS),
     ("coupler/exchange/window_rule.hpp", "(distance + parts - 1) / parts", "distance / parts", OWN_WINDOWS),
     ("coupler/link/output_due.hpp", "(outputs_until(static_cast<double>(after) * step, interval) + 1) * interval",
@@ -293,7 +294,7 @@ FAULTS = [
     ("foam_side/pressure_system.cpp", "if (flow.porosity->swept)\n    return prescribed_growth(flow)", "if (false)\n    return prescribed_growth(flow)", MOVING),
     ("foam_side/step_fluid.cpp", "  if (bridge) bridge->collect_impulse();\n  move_under_particles(flow);", "  move_under_particles(flow);", MOVING),
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
-    ("foam_side/openings_to_bulk.cpp", "share + windows_ahead * change <= 0", "share + 0.5 * windows_ahead * change <= 0",
-     MOVING),
+    ("foam_side/openings_to_bulk.cpp", "share + ahead * change <= 0", "share + 0.5 * ahead * change <= 0", MOVING),
+    ("foam_side/run_pair.cpp", "         static_cast<double>(steps_.last);", "         static_cast<double>(link_.steps());", MOVING),
     ("dem_side/run_pair.cpp", "if (fluid.openings) averaging_.set_openings(*fluid.openings);", "", MOVING),
 ]
