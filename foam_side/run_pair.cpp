@@ -10,6 +10,7 @@
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
+#include "foam_side/rows_of_all_ranks.hpp"
 #include "foam_side/step_fluid.hpp"
 
 namespace demvof {
@@ -200,6 +201,7 @@ RunRecord::Window PairedFluid::record_of_window() {
   if (flow_.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
   done.negative_cells = to_fine.spread().negative_cells;
   done.full_cells = to_fine.spread().full_cells;
+  done.beside = to_fine.beside();
   const Bridge::PressureImpulses pressure = bridge_.pressure_impulses();
   done.fluid.seen_pressure = pressure.seen;
   done.fluid.owed_pressure = pressure.owed;

@@ -296,5 +296,8 @@ FAULTS = [
     ("foam_side/fluid_gradients.cpp", "((u - cell_velocity) & gradient)", "(u & gradient)", MOVING),
     ("foam_side/openings_to_bulk.cpp", "share + ahead * change <= 0", "share + 0.5 * ahead * change <= 0", MOVING),
     ("foam_side/run_pair.cpp", "         static_cast<double>(steps_.last);", "         static_cast<double>(link_.steps());", MOVING),
+    ("foam_side/nearest_fluid.cpp", "    taken.push_back(force);\n", "", MOVING),
+    ("foam_side/nearest_fluid.cpp", "Foam::returnReduce(nearest == least ? force.cell : HUGE_VAL, Foam::minOp<double>())", "force.cell", MOVING),
+    ("foam_side/particles_to_fine.cpp", "!(here && here->all > 0) && norm(force) > 0", "!here && norm(force) > 0", MOVING),
     ("dem_side/run_pair.cpp", "if (fluid.openings) averaging_.set_openings(*fluid.openings);", "", MOVING),
 ]
