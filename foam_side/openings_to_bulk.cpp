@@ -25,11 +25,8 @@ constexpr double sticks_out = 1e-6;
 // A bulk cell is full of fluid mesh up to what the corners of a mesh, as written in its file, leave open.
 constexpr double full = 1 - 1e-6;
 
-// Of a bulk cell that a mesh which moves fills, to hold particles; and for how long it has to hold them. What
-// they leave behind in a cell is in the fluid's books for a window more (owed_pressure.hpp), with the
-// concurrent schedule for two, and motion may grow faster.
+// Of a bulk cell that a mesh which moves fills, to hold particles.
 constexpr double least_share = 0.01;
-constexpr double windows_ahead = 4;
 
 /// Per touched bulk cell. Travels as a row of doubles.
 struct Passages {
@@ -180,12 +177,13 @@ void require_inside(const Foam::fvMesh& mesh, const BulkGrid& grid) {
   }
 }
 
-CellValues<double> without_cells_that_empty(CellValues<double> shares, const CellValues<double>& before) {
+CellValues<double> without_cells_that_empty(CellValues<double> shares, const CellValues<double>& before,
+                                            double ahead) {
   for (std::size_t i = 0; i < shares.cells.size(); ++i) {
     double& share = shares.values[i];
     const double* last = find(before, shares.cells[i]);
     const double change = share - (last ? *last : 1);
-    if (share < least_share || share + windows_ahead * change <= 0) share = 0;
+    if (share < least_share || share + ahead * change <= 0) share = 0;
   }
   return shares;
 }
@@ -223,11 +221,11 @@ Openings OpeningsToBulk::find() const {
           find_walls(cut_.mesh(), cut_.grid(), whole)};
 }
 
-const Openings& OpeningsToBulk::look() {
+const Openings& OpeningsToBulk::look(double ahead) {
   require_inside(cut_.mesh(), cut_.grid());
   Openings now = find();
   const CellValues<double> before = std::exchange(state_.shares, now.shares);
-  now.shares = without_cells_that_empty(std::move(now.shares), before);
+  now.shares = without_cells_that_empty(std::move(now.shares), before, ahead);
   state_.told = std::move(now);
   return state_.told;
 }

@@ -18,10 +18,16 @@ class OpeningsToBulk {
   /// What the particles were told last.
   const Openings& told() const { return state_.told; }
 
+  /// Windows for which a cell has to have fluid to hold particles. What they leave behind in a cell is in the
+  /// fluid's books for a window more (owed_pressure.hpp), with the concurrent schedule for two, and motion
+  /// may grow faster.
+  static constexpr int windows_ahead = 4;
+
   /// Of a mesh that moves: what they are told now. They are to have fluid around them to the end of the
-  /// window: cells that the mesh will have left in four windows like the last one, or fills by less than 1 %,
-  /// hold none. Throws RunError when the mesh has left the bulk grid.
-  const Openings& look();
+  /// window: cells that the mesh will have left in so many windows, going on as in the last one, or fills by
+  /// less than 1 %, hold none. ahead: length of the coming ones over that of the last, -. Throws RunError
+  /// when the mesh has left the bulk grid.
+  const Openings& look(double ahead = windows_ahead);
 
   /// For a run that goes on, which begins with it.
   struct State {

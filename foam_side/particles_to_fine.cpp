@@ -27,6 +27,7 @@
 #include "coupler/base/sphere.hpp"
 #include "coupler/exchange/momentum_exchange.hpp"
 #include "foam_side/fine_mesh.hpp"
+#include "foam_side/nearest_fluid.hpp"
 #include "foam_side/sharing_weights.hpp"
 #include "foam_side/stress_of_other.hpp"
 
@@ -132,6 +133,7 @@ void ParticlesToFine::spread_sources() {
   const auto& volume = flow_.mesh.V();
   surface_.look();
   const SharingWeights weights(flow_, surface_, cut_, coupling_.sharing);
+  beside_ = {};
   const bool changes = hands_back();  // the implicit part is for what changes
   const std::vector<Vec3> own_shapes = changes ? own_shape() : std::vector<Vec3>();
   for (int k = 0; k < surface_.fluids(); ++k) {
@@ -161,7 +163,31 @@ void ParticlesToFine::spread_sources() {
       total[subcell.slot].shape += own * shape(i);
       total[subcell.slot].all += weights.of_any(subcell);
     }
-    total = cut_.cells().fetch_from_owners(cut_.cells().sum_to_owners(total), Totals{});
+    const CellValues<Totals> owned = cut_.cells().sum_to_owners(total);
+    total = cut_.cells().fetch_from_owners(owned, Totals{});
+    std::vector<CellId> with_fluid;
+    std::vector<ForceOnCell> alone;
+    double size = 0;  // of the forces
+    for (std::size_t i = 0; i < owned.cells.size(); ++i)
+      if (owned.values[i].all > 0) with_fluid.push_back(owned.cells[i]);
+    const CellValues<BulkParticles>& particles = state_[k].particles;
+    for (std::size_t i = 0; i < particles.cells.size(); ++i) {
+      const Totals* here = find(owned, particles.cells[i]);
+      const Vec3 force = fluid_source(coupling_.exchange, particles.values[i], window_).explicit_force;
+      size += norm(force);
+      if (!(here && here->all > 0) && norm(force) > 0)
+        alone.push_back({static_cast<double>(particles.cells[i]), force});
+    }
+    const std::vector<ForceOnCell> taken = to_nearest_fluid(cut_.grid(), alone, with_fluid);
+    if (!taken.empty()) beside_.whole += window_ * Foam::returnReduce(size, Foam::sumOp<double>());
+    for (const auto& [cell, force] : taken) {
+      ++beside_.cells;
+      beside_.impulse += window_ * norm(force);
+      const std::vector<CellId>& touched = cut_.cells().cells();
+      const auto place = std::lower_bound(touched.begin(), touched.end(), static_cast<CellId>(cell));
+      if (place != touched.end() && *place == static_cast<CellId>(cell))
+        sources[place - touched.begin()].explicit_force += force;
+    }
     for (std::size_t i = 0; i < subcells.size(); ++i) {
       const Subcell& subcell = subcells[i];
       const FluidSource& bulk = sources[subcell.slot];

@@ -64,8 +64,16 @@ class ParticlesToFine {
   Foam::vectorField solid_velocity() const;
 
   /// Sets the flow's source fields from the particles taken, shared among the fine cells of a bulk cell with
-  /// the weights of sharing_weights.hpp, as they are now. In every fluid step.
+  /// the weights of sharing_weights.hpp, as they are now. In every fluid step. Of a bulk cell that the mesh
+  /// has left, what the fluid gets whatever its velocity is goes to the fluid nearest to it.
   void spread_sources();
+  /// What went there in the present window, or will, over all ranks.
+  struct Beside {
+    long cells = 0;
+    double impulse = 0, whole = 0;  // N s, summed by its size in each bulk cell: of these cells; of all
+    bool matters() const { return impulse > 1e-6 * whole; }
+  };
+  const Beside& beside() const { return beside_; }
 
   /// What the implicit part of the sources took from the fluid of each bulk cell since begin_window or the
   /// last call, N s: cells owned by this rank; none where nobody is owed anything. Before each change of the
@@ -140,6 +148,7 @@ class ParticlesToFine {
                                                        // coefficient, -
   std::vector<Droplet> droplets_;
   Spread spread_;
+  Beside beside_;
   Vec3 collected_sum_, implicit_impulse_;  // what the fine cells got, this rank, N s: so far; in the window
 };
 

@@ -211,23 +211,6 @@ void replace_particles(
   if (size > 0) books.worst_impulse_error = std::max(books.worst_impulse_error, norm(open) / size);
 }
 
-std::vector<Droplet> on_every_rank(const std::vector<Droplet>& mine) {
-  const int width = row_width<Droplet>();
-  Foam::List<Foam::scalarList> rows(Foam::Pstream::nProcs());
-  Foam::scalarList& own = rows[Foam::Pstream::myProcNo()];
-  own.setSize(static_cast<label>(mine.size()) * width);
-  std::copy_n(reinterpret_cast<const double*>(mine.data()), own.size(), own.begin());
-  Foam::Pstream::gatherList(rows);
-  Foam::Pstream::scatterList(rows);
-  std::vector<Droplet> all;
-  for (const Foam::scalarList& part : rows) {
-    const std::size_t first = all.size();
-    all.resize(first + part.size() / width);
-    std::copy(part.begin(), part.end(), reinterpret_cast<double*>(all.data() + first));
-  }
-  return all;
-}
-
 void require_mesh_resolves_particles(const Foam::fvMesh& mesh, double diameter) {
   if (mesh.dynamic() || diameter <= 0) return;  // checked where a particle becomes liquid
   const double finest = std::cbrt(Foam::gMin(mesh.V().field()));

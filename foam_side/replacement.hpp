@@ -51,9 +51,6 @@ void replace_particles(
     const std::function<scalarField(const Vec3& position, double volume)>& solid_fraction_of,
     const std::function<bool(const Vec3& position, const Vec3& impulse)>& owe, ReplacementBooks& books);
 
-/// The droplets of all ranks on every rank, in the same order.
-std::vector<Droplet> on_every_rank(const std::vector<Droplet>& mine);
-
 /// Throws InputError when the mesh has nowhere 2 cells per diameter of the smallest particle (m).
 void require_mesh_resolves_particles(const Foam::fvMesh& mesh, double diameter);
 

@@ -10,6 +10,7 @@
 #include "foam_side/fluid_case.hpp"
 #include "foam_side/replacement.hpp"
 #include "foam_side/restart.hpp"
+#include "foam_side/rows_of_all_ranks.hpp"
 #include "foam_side/step_fluid.hpp"
 #include "foam_side/write_fields.hpp"
 
@@ -42,6 +43,7 @@ class PairedFluid {
   ParticleReport meet_particles(const nlohmann::json* saved);
   void start_anew(const ParticleReport& particles);
   void go_on(const RestartPoint& start, const nlohmann::json& saved, const ParticleReport& particles);
+  double windows_ahead() const;
   RunRecord::Window record_of_window();
   void choose_next_window(RunRecord::Window& done);
 
@@ -121,10 +123,18 @@ void PairedFluid::begin_window() {
   bridge_.follow_gravity(flow_.gravity.mean(link_.begin_time(), link_.end_time()));
 }
 
+/// OpeningsToBulk::windows_ahead at their longest, in windows like the last one.
+double PairedFluid::windows_ahead() const {
+  constexpr int ahead = OpeningsToBulk::windows_ahead;
+  if (!link_.plan().own_lengths()) return ahead;
+  return static_cast<double>(most_steps(ahead, link_.steps(), steps_.next, range_)) /
+         static_cast<double>(steps_.last);
+}
+
 FluidMessage PairedFluid::message() {
   const Stopwatch watch(seconds_.mapping);
   FluidMessage fluid;
-  if (link_.plan().mesh_moves) fluid.openings = bridge_.openings_to_bulk().look();
+  if (link_.plan().mesh_moves) fluid.openings = bridge_.openings_to_bulk().look(windows_ahead());
   if (flow_.scene.two_fluids) fluid.surface = bridge_.surface_to_bulk().news();
   fluid.means = bridge_.bulk_fluids();
   if (link_.plan().gradients) fluid.gradients = bridge_.bulk_fluid_gradients();
@@ -192,6 +202,7 @@ RunRecord::Window PairedFluid::record_of_window() {
   if (flow_.porosity) done.fluid.fine_solid_volume = to_fine.spread().solid_volume;
   done.negative_cells = to_fine.spread().negative_cells;
   done.full_cells = to_fine.spread().full_cells;
+  done.beside = to_fine.beside();
   const Bridge::PressureImpulses pressure = bridge_.pressure_impulses();
   done.fluid.seen_pressure = pressure.seen;
   done.fluid.owed_pressure = pressure.owed;

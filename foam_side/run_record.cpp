@@ -237,6 +237,10 @@ void RunRecord::window(const Flow& flow, const Window& window, double end_time) 
       enter(results, *window.particles);
       limits_.negative_cells += window.negative_cells;
       limits_.full_cells += window.full_cells;
+      if (window.beside.matters()) {
+        limits_.beside.cells += window.beside.cells;
+        limits_.beside.impulse = std::max(limits_.beside.impulse, window.beside.impulse);
+      }
       if (window.held_back.matters()) {
         limits_.held_back.cells += window.held_back.cells;
         limits_.held_back.impulse = std::max(limits_.held_back.impulse, window.held_back.impulse);

@@ -69,6 +69,7 @@ class RunRecord {
     long negative_cells = 0;  // fine cells whose solid fraction was interpolated below 0
     long full_cells = 0;      // fine cells with more solid than leaves room for the fluid
     OwedPressure::HeldBack held_back;
+    ParticlesToFine::Beside beside;
     std::optional<ReplacementBooks> replacement;  // of the run so far, when the scene has it
     std::optional<ParticleReport> particles;      // not without particles
     FluidSeconds seconds;

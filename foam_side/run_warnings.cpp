@@ -54,6 +54,12 @@ std::vector<std::string> run_warnings(const Flow& flow, const ActedLimits& limit
                     "steepest there, {} times: up to {:.3g} N s waited for a later window (docs/warnings.md, "
                     "Owed pressure)",
                     limits.held_back.cells, limits.held_back.impulse));
+  if (limits.beside.cells > 0)
+    lines.push_back(
+        fmt::format("the mesh had left bulk cells before their fluid got what is due to it, {} times: up to "
+                    "{:.3g} N s in a window went to the fluid beside them. What to try: shorter windows "
+                    "(docs/warnings.md, Bulk cells that the mesh leaves)",
+                    limits.beside.cells, limits.beside.impulse));
   if (limits.waiting_particles > 0)
     lines.push_back(
         fmt::format("particles felt no fluid {} times: new in a window, or where there is none "

@@ -7,6 +7,7 @@
 #include "coupler/exchange/owed_pressure.hpp"
 #include "coupler/output/results.hpp"
 #include "foam_side/flow.hpp"
+#include "foam_side/particles_to_fine.hpp"
 
 namespace demvof {
 
@@ -18,6 +19,7 @@ struct ActedLimits {
   long soft_windows = 0;                            // with particles on springs that the drag outruns
   double holding_window = 0, mild_window = 0;       // s: the longest, the shortest
   OwedPressure::HeldBack held_back;                 // cells: over the windows; impulse: most in one
+  ParticlesToFine::Beside beside;                   // likewise
   double drop_resolution = 1e9;                     // fewest cells per diameter
   double relieved_volume = 0, unplaced_volume = 0;  // m3
   double unplaced_left_over = 0;                    // N s

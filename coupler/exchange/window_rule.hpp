@@ -133,6 +133,14 @@ inline long steps_of_next_window(long steps, double error, const StepRange& rang
   return std::clamp(static_cast<long>(next), range.shortest, range.longest);
 }
 
+/// DEM steps that this many windows come to at most, whatever their errors: the next one has `steps`, and
+/// those after it follow from the `wanted` that it was meant to have.
+inline long most_steps(int windows, long steps, long wanted, const StepRange& range) {
+  long all = steps;
+  for (int window = 1; window < windows; ++window) all += wanted = steps_of_next_window(wanted, 0, range);
+  return all;
+}
+
 /// Of `distance` DEM steps to a time that has to be met, the next window's when it may have `wanted`: equal
 /// parts.
 inline long equal_part(long distance, long wanted) {

@@ -107,6 +107,15 @@ TEST(WindowRule, ShrinksAtOnceAndGrowsSlowly) {
   EXPECT_EQ(steps_of_next_window(900, 0, range), 1000) << "longest";
 }
 
+TEST(WindowRule, KnowsHowFarTheNextWindowsCanReach) {
+  const StepRange range{2, 1000};
+  EXPECT_EQ(most_steps(1, 100, 100, range), 100);
+  EXPECT_EQ(most_steps(4, 100, 100, range), 100 + 150 + 225 + 337);
+  EXPECT_EQ(most_steps(4, 60, 100, range), 60 + 150 + 225 + 337) << "cut short by an output";
+  EXPECT_EQ(most_steps(3, 900, 900, range), 2900) << "longest";
+  EXPECT_EQ(most_steps(4, 7, 7, {7, 7}), 28) << "windows of one length";
+}
+
 TEST(WindowRule, WindowsToAnOutputAreEqualParts) {
   EXPECT_EQ(equal_part(100, 100), 100);
   EXPECT_EQ(equal_part(101, 100), 51);
