@@ -291,7 +291,7 @@ FAULTS = [
     ("foam_side/move_mesh.cpp", "passing * flow.time.deltaTValue() > nothing *", "passing * flow.time.deltaTValue() > 0 *", MOVING),
     ("foam_side/advect_interface.cpp", "  renew_swept_fluid(flow);", "", TURNING),
     ("foam_side/openings_to_bulk.cpp", "      if (slides)\n", "      if (slides && false)\n", {**HALVES, **TURNING}),
-    ("foam_side/openings_to_bulk.cpp", "nearestPoint(to_foam(middle), mesh.points()).rawPoint()", "centre(mesh.points())", HALVES),
+    ("foam_side/openings_to_bulk.cpp", "nearestPoint(to_foam(middle),", "nearestPoint(mesh.faceCentres()[face] + 0 * to_foam(middle),", HALVES),
     ("foam_side/openings_to_bulk.cpp", "Foam::reduce(rounds, Foam::maxOp<label>());",
      "Foam::reduce(rounds, Foam::maxOp<label>());\n  rounds = std::min<label>(rounds, 1);", EDGES),
     ("coupler/exchange/books.hpp", "    balance.moving = moving(particles);", "", TURNING),
