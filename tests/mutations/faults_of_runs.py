@@ -128,6 +128,12 @@ FAULTS = [
     ("foam_side/case_numbers.cpp", "if (mesh.solutionDict().found(\"PIMPLE\")) return {};", "if (!mesh.solutionDict().found(\"PIMPLE\")) return {};", REFUSALS),
     # ---- a start later than 0
     ("coupler/link/pair_end.hpp", "number_ == plan_.windows_before + 1", "number_ == 1", LATER_START),
+    ("foam_side/write_fields.cpp", "  name_the_time(flow.time);\n", "", LATER_START),
+    ("foam_side/case_advice.cpp", "wave <= 0 || step <= wave", "wave <= 0 || step > wave", FIRST_LOOK),
+    ("foam_side/case_advice.cpp", "if (flow.ghost && particles", "if (!flow.ghost && particles", FIRST_LOOK),
+    ("coupler/exchange/solid_in_fluids.hpp", "fluid > 0 ? solid / fluid : 0", "solid / fluid", EXCHANGE),
+    ("coupler/exchange/solid_in_fluids.hpp", "std::min(dry, most * gas) + too_wet", "dry + too_wet", EXCHANGE),
+    ("coupler/link/own_world.cpp", "  outlive_readers();\n", "", ENDINGS),
     ("coupler/scene/plan_windows.hpp", "std::lround(begin.time / dem_step)", "0", LATER_START),
     ("coupler/cli/prepare.cpp", "from == \"firstTime\" ? folders.begin()", "from != \"firstTime\" ? folders.begin()", LATER_START),
     ("dem_side/run_pair.cpp", "output.write(link_.end_time(), parameters_", "output.write(0, parameters_", LATER_START),

@@ -3,7 +3,7 @@
 
 CLOSURES = {f"^unit_{name}$": [f"unit_{name}"] for name in ("drag", "closures", "own_wake", "implicit_drag", "series")}
 EXCHANGE = {f"^unit_{name}$": [f"unit_{name}"] for name in ("exchange_stability", "added_mass_exchange", "relaxation",
-                                                            "ledger", "books", "crossing")}
+                                                            "ledger", "books", "crossing", "solid_in_fluids")}
 AVERAGING = {"^averaging_kernels$": ["averaging_kernels_test"], "^limit_solid_test.2$": ["limit_solid_test"],
              "^unit_kernel_weights$": ["unit_kernel_weights"], "^unit_row_sums$": ["unit_row_sums"]}
 MAPPING = {"^unit_mesh_cut$": ["unit_mesh_cut"], "^remap_test.2$": ["remap_test"], "^mapping_test": ["mapping_test"]}
