@@ -128,7 +128,7 @@ FAULTS = [
     ("foam_side/case_numbers.cpp", "if (mesh.solutionDict().found(\"PIMPLE\")) return {};", "if (!mesh.solutionDict().found(\"PIMPLE\")) return {};", REFUSALS),
     # ---- a start later than 0
     ("coupler/link/pair_end.hpp", "number_ == plan_.windows_before + 1", "number_ == 1", LATER_START),
-    ("foam_side/write_fields.cpp", "  name_the_time(flow.time);\n", "", LATER_START),
+    ("foam_side/write_fields.cpp", "> 0.1 * time.deltaTValue()", "> 1e9 * time.deltaTValue()", LATER_START),
     ("foam_side/case_advice.cpp", "wave <= 0 || step <= wave", "wave <= 0 || step > wave", FIRST_LOOK),
     ("foam_side/case_advice.cpp", "if (flow.ghost && particles", "if (!flow.ghost && particles", FIRST_LOOK),
     ("coupler/exchange/solid_in_fluids.hpp", "fluid > 0 ? solid / fluid : 0", "solid / fluid", EXCHANGE),
