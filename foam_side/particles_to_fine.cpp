@@ -124,6 +124,31 @@ Foam::vectorField ParticlesToFine::solid_velocity() const {
   return flux;
 }
 
+/// Adds what is due to the fluid of bulk cells that the mesh has left to the cells nearest to them.
+/// with_fluid: cells owned by this rank; sources: by touched cell.
+void ParticlesToFine::give_to_fluid_beside(int k, const std::vector<CellId>& with_fluid,
+                                           std::vector<FluidSource>& sources) {
+  const CellValues<BulkParticles>& particles = state_[k].particles;
+  std::vector<ForceOnCell> alone;
+  double size = 0;  // of the forces, N
+  for (std::size_t i = 0; i < particles.cells.size(); ++i) {
+    const Vec3 force = fluid_source(coupling_.exchange, particles.values[i], window_).explicit_force;
+    size += norm(force);
+    if (norm(force) > 0 && !std::binary_search(with_fluid.begin(), with_fluid.end(), particles.cells[i]))
+      alone.push_back({static_cast<double>(particles.cells[i]), force});
+  }
+  const std::vector<ForceOnCell> taken = to_nearest_fluid(cut_.grid(), alone, with_fluid);
+  if (!taken.empty()) beside_.whole += window_ * Foam::returnReduce(size, Foam::sumOp<double>());
+  const std::vector<CellId>& touched = cut_.cells().cells();
+  for (const auto& [cell, force] : taken) {
+    ++beside_.cells;
+    beside_.impulse += window_ * norm(force);
+    const auto place = std::lower_bound(touched.begin(), touched.end(), static_cast<CellId>(cell));
+    if (place != touched.end() && *place == static_cast<CellId>(cell))
+      sources[place - touched.begin()].explicit_force += force;
+  }
+}
+
 void ParticlesToFine::spread_sources() {
   const std::vector<Subcell>& subcells = cut_.subcells();
   ParticleSource& source = *flow_.source;
@@ -165,28 +190,11 @@ void ParticlesToFine::spread_sources() {
     }
     const CellValues<Totals> owned = cut_.cells().sum_to_owners(total);
     total = cut_.cells().fetch_from_owners(owned, Totals{});
-    std::vector<CellId> with_fluid;
-    std::vector<ForceOnCell> alone;
-    double size = 0;  // of the forces
-    for (std::size_t i = 0; i < owned.cells.size(); ++i)
-      if (owned.values[i].all > 0) with_fluid.push_back(owned.cells[i]);
-    const CellValues<BulkParticles>& particles = state_[k].particles;
-    for (std::size_t i = 0; i < particles.cells.size(); ++i) {
-      const Totals* here = find(owned, particles.cells[i]);
-      const Vec3 force = fluid_source(coupling_.exchange, particles.values[i], window_).explicit_force;
-      size += norm(force);
-      if (!(here && here->all > 0) && norm(force) > 0)
-        alone.push_back({static_cast<double>(particles.cells[i]), force});
-    }
-    const std::vector<ForceOnCell> taken = to_nearest_fluid(cut_.grid(), alone, with_fluid);
-    if (!taken.empty()) beside_.whole += window_ * Foam::returnReduce(size, Foam::sumOp<double>());
-    for (const auto& [cell, force] : taken) {
-      ++beside_.cells;
-      beside_.impulse += window_ * norm(force);
-      const std::vector<CellId>& touched = cut_.cells().cells();
-      const auto place = std::lower_bound(touched.begin(), touched.end(), static_cast<CellId>(cell));
-      if (place != touched.end() && *place == static_cast<CellId>(cell))
-        sources[place - touched.begin()].explicit_force += force;
+    if (flow_.scene.mesh_moves) {  // else no bulk cell is left by it
+      std::vector<CellId> with_fluid;
+      for (std::size_t i = 0; i < owned.cells.size(); ++i)
+        if (owned.values[i].all > 0) with_fluid.push_back(owned.cells[i]);
+      give_to_fluid_beside(k, with_fluid, sources);
     }
     for (std::size_t i = 0; i < subcells.size(); ++i) {
       const Subcell& subcell = subcells[i];

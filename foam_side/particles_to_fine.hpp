@@ -5,6 +5,7 @@
 
 #include "coupler/config/parameters.hpp"
 #include "coupler/exchange/crossing.hpp"
+#include "coupler/exchange/momentum_exchange.hpp"
 #include "coupler/exchange/owed_pressure.hpp"
 #include "coupler/exchange/solid_in_fluids.hpp"
 #include "foam_side/bulk_cut.hpp"
@@ -110,6 +111,7 @@ class ParticlesToFine {
   void go_on_from(std::vector<InFluid> state);
 
  private:
+  void give_to_fluid_beside(int k, const std::vector<CellId>& with_fluid, std::vector<FluidSource>& sources);
   /// Of the window, at the end of the present step, -.
   double done() const { return 1 - (flow_.clock.window_end - flow_.time.value()) / window_; }
   /// Volume, m3, and flux, m4/s, of solid.

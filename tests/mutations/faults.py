@@ -305,6 +305,7 @@ FAULTS = [
     ("foam_side/run_pair.cpp", "         static_cast<double>(steps_.last);", "         static_cast<double>(link_.steps());", MOVING),
     ("foam_side/nearest_fluid.cpp", "    taken.push_back(force);\n", "", MOVING),
     ("foam_side/nearest_fluid.cpp", "Foam::returnReduce(nearest == least ? force.cell : HUGE_VAL, Foam::minOp<double>())", "force.cell", MOVING),
-    ("foam_side/particles_to_fine.cpp", "!(here && here->all > 0) && norm(force) > 0", "!here && norm(force) > 0", MOVING),
+    ("foam_side/particles_to_fine.cpp", "if (owned.values[i].all > 0) with_fluid", "if (owned.values[i].all >= 0) with_fluid", MOVING),
+    ("foam_side/particles_to_fine.cpp", "if (flow_.scene.mesh_moves) {", "if (!flow_.scene.mesh_moves) {", MOVING),
     ("dem_side/run_pair.cpp", "if (fluid.openings) averaging_.set_openings(*fluid.openings);", "", MOVING),
 ]
